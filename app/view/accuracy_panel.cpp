@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -10,16 +11,17 @@
 
 namespace clatter {
 
-static void show_cost(double price) {
+static void show_cost(Controls& controls, double price) {
+  if (controls.chooses()) return;
   ImGui::TextDisabled("CPU time %s", cost_text(price).c_str());
   if (ImGui::IsItemHovered()) {
     ImGui::SetTooltip("Relative to the CPU time without it, measured for 1000 disks");
   }
 }
 
-static void tell_share(const char* name, double share) {
-  if (std::isnan(share)) return ImGui::TextDisabled("%s: -", name);
-  ImGui::TextDisabled("%s: %.2g %%", name, 100.0 * share);
+static void tell_share(Controls& controls, const char* key, const char* name, double share) {
+  controls.note(key, fmt::format("{}: {}", name,
+                                 std::isnan(share) ? "-" : fmt::format("{:.2g} %", 100.0 * share)));
 }
 
 static void contact_time(Session& session, Controls& controls) {
@@ -49,12 +51,14 @@ static void contact_time(Session& session, Controls& controls) {
                   .format = "%.1e"},
                  *time, session.opened().contact_time.value_or(kUsual));
   }
-  show_cost(kContactTimeCost);
+  show_cost(controls, kContactTimeCost);
   if (!on) return;
   // Shown even without a value, so that the panel keeps its height after a change of laws.
   const auto& error = session.frame().contact_time_error;
-  tell_share("Not dissipated", error ? error->undissipated : std::nan(""));
-  tell_share("Elastic collisions", error ? error->elasticised : std::nan(""));
+  tell_share(controls, "not_dissipated", "Not dissipated",
+             error ? error->undissipated : std::nan(""));
+  tell_share(controls, "elastic_collisions", "Elastic collisions",
+             error ? error->elasticised : std::nan(""));
 }
 
 // List of estimators; the snapshot estimator adds a slider for its interval.
@@ -89,10 +93,10 @@ static void averages(Session& session, Controls& controls) {
   View view = session.view();
   const View& usual = session.opened().view;
   bool changed = false;
-  if (view.field && is_residual(*view.field)) {
+  if (view.field && is_residual(*view.field) && !controls.chooses()) {
     ImGui::TextUnformatted("Balances");
     ImGui::SameLine();
-    show_cost(kBalanceCost);
+    show_cost(controls, kBalanceCost);
   }
   if (view.arrows || (view.field && !is_residual(*view.field))) {
     changed |= choose_estimator(controls, view, usual);
@@ -114,10 +118,9 @@ static void averages(Session& session, Controls& controls) {
 }
 
 void accuracy_panel(Session& session, Controls& controls) {
-  if (!group("Accuracy")) return;
+  if (!controls.group("Accuracy")) return;
   contact_time(session, controls);
   averages(session, controls);
-  ImGui::Spacing();
 }
 
 }  // namespace clatter

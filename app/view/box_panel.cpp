@@ -133,9 +133,10 @@ void side_panel(Session& session, Controls& controls, std::size_t side) {
     return;
   }
   if (!wall) return;
-  ImGui::Indent();
+  const bool indents = !controls.chooses();
+  if (indents) ImGui::Indent();
   wall_numbers(*wall, opened, path, controls);
-  ImGui::Unindent();
+  if (indents) ImGui::Unindent();
 }
 
 void bulk_drive(Session& session, Controls& controls) {
@@ -177,7 +178,7 @@ bool choose_dimension(Session& session, Controls& controls) {
 }  // namespace
 
 void box_panel(Session& session, Controls& controls) {
-  if (!group("Box and walls") || choose_dimension(session, controls)) return;
+  if (!controls.group("Box and walls") || choose_dimension(session, controls)) return;
   constexpr std::array<const char*, 3> kSizes = {"Width", "Height", "Depth"};
   constexpr std::array<const char*, 3> kLengths = {"Lx", "Ly", "Lz"};
   constexpr std::array<const char*, 3> kGravities = {"Gravity along x", "Gravity along y",
@@ -219,7 +220,6 @@ void box_panel(Session& session, Controls& controls) {
                        gravity_of(scene), axis, gravity_of(usual));
   }
   bulk_drive(session, controls);
-  ImGui::Spacing();
 }
 
 }  // namespace clatter

@@ -10,16 +10,10 @@
 
 #include "app/view/style.h"
 #include "engine/scene/key_writer.h"
+#include "engine/scene/text.h"
 #include "render/layers/fonts.h"
 
 namespace clatter {
-
-bool group(const char* name) {
-  ImGui::PushStyleColor(ImGuiCol_Header, ImVec4(0, 0, 0, 0));
-  const bool open = ImGui::CollapsingHeader(name, ImGuiTreeNodeFlags_DefaultOpen);
-  ImGui::PopStyleColor();
-  return open;
-}
 
 static constexpr float kTipWidth = 22.0f;  // in text sizes
 
@@ -68,6 +62,7 @@ static void explain(const Slider& slider, double usual) {
 static bool reset_button() {
   const float size = ImGui::GetFontSize();
   ImGui::SameLine(ImGui::GetContentRegionMax().x - size);
+  const Reach reach(size);
   const bool clicked = ImGui::InvisibleButton("reset", ImVec2(size, size));
   const ImVec2 low = ImGui::GetItemRectMin();
   const ImVec2 centre(low.x + 0.5f * size, low.y + 0.58f * size);
@@ -113,6 +108,31 @@ static double rounded(double value) {
   return std::stod(fmt::format("{:.3g}", value));
 }
 
+bool Controls::shows(const std::string& name) {
+  if (!chosen_) return true;
+  offered_.push_back(name);
+  return std::ranges::find(*chosen_, name) != chosen_->end();
+}
+
+std::vector<std::pair<std::string, std::string>> Controls::take_missing() {
+  std::vector<std::pair<std::string, std::string>> missing;
+  for (const std::string& name : *chosen_) {
+    if (std::ranges::find(offered_, name) != offered_.end()) continue;
+    missing.emplace_back(name, near_miss(name, offered_));
+  }
+  offered_.clear();
+  return missing;
+}
+
+bool Controls::group(const char* name) {
+  if (chosen_) return true;
+  if (ImGui::GetCursorPosY() > ImGui::GetCursorStartPos().y) ImGui::Spacing();
+  ImGui::PushStyleColor(ImGuiCol_Header, ImVec4(0, 0, 0, 0));
+  const bool open = ImGui::CollapsingHeader(name, ImGuiTreeNodeFlags_DefaultOpen);
+  ImGui::PopStyleColor();
+  return open;
+}
+
 // The value in the range of the slider. A message states the limit.
 double Controls::limited(const Slider& slider, double value) {
   const double within = std::clamp(value, slider.low, slider.high);
@@ -128,6 +148,7 @@ double Controls::limited(const Slider& slider, double value) {
 Controls::Moved Controls::draw(const Slider& slider, double& value, double usual,
                                const std::string& place) {
   Moved moved;
+  if (!shows(place)) return moved;
   ImGui::PushID(slider.key);
   ImGui::PushID(slider.name);
   const bool asked = headline(slider, value);
@@ -142,6 +163,7 @@ Controls::Moved Controls::draw(const Slider& slider, double& value, double usual
   const ImGuiID id = ImGui::GetID("##value");
   if (asked) ImGui::GetCurrentContext()->NavActivateInputId = id;
   const bool typing = ImGui::TempInputIsActive(id);
+  const float tall = ImGui::GetFrameHeight();
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
                       ImVec2(ImGui::GetStyle().FramePadding.x, typing ? 3.0f : 0.0f));
   if (!typing) ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0, 0, 0, 0));
@@ -151,6 +173,7 @@ Controls::Moved Controls::draw(const Slider& slider, double& value, double usual
   const ImGuiSliderFlags flags =
       slider.logarithmic ? ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat : 0;
   const double was = value;
+  const Reach reach(ImGui::GetFrameHeight(), tall);
   moved.changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &slider.low,
                                       &slider.high, format, flags);
   if (!typing) ImGui::PopStyleColor();
@@ -263,6 +286,7 @@ static std::string_view first_word(std::string_view words) {
 
 bool Controls::choice(const char* key, const char* name, const char* help,
                       const std::vector<std::string>& words, int& chosen, int usual, bool grouped) {
+  if (!shows(key)) return false;
   ImGui::PushID(key);
   ImGui::TextUnformatted(name);
   bool changed = chosen != usual && reset_button();
@@ -279,7 +303,8 @@ bool Controls::choice(const char* key, const char* name, const char* help,
       if (grouped && i > 0 &&
           first_word(words[static_cast<std::size_t>(i - 1)]) != first_word(word))
         ImGui::Separator();
-      if (ImGui::Selectable(word.c_str(), i == chosen)) {
+      const float tall = ImGui::GetFrameHeight() - ImGui::GetStyle().ItemSpacing.y;
+      if (ImGui::Selectable(word.c_str(), i == chosen, 0, ImVec2(0.0f, tall))) {
         changed = i != chosen;
         chosen = i;
       }
@@ -293,6 +318,7 @@ bool Controls::choice(const char* key, const char* name, const char* help,
 }
 
 bool Controls::ends(const char* key, const char* help, std::array<double, 2>& ends) {
+  if (!shows(key)) return false;
   std::array<double, 2> typed = ends;
   ImGui::PushID(key);
   ImGui::SetNextItemWidth(-FLT_MIN);
@@ -307,6 +333,7 @@ bool Controls::ends(const char* key, const char* help, std::array<double, 2>& en
 }
 
 bool Controls::toggle(const char* key, const char* name, const char* help, bool& on) {
+  if (!shows(key)) return false;
   const bool changed = ImGui::Checkbox(name, &on);
   log_place(key);
   tell_help(help);
@@ -314,6 +341,7 @@ bool Controls::toggle(const char* key, const char* name, const char* help, bool&
 }
 
 bool Controls::button(const char* key, const char* label, const char* help, float width) {
+  if (!shows(key)) return false;
   const bool clicked = ImGui::Button(label, ImVec2(width, 0.0f));
   log_place(key);
   tell_help(help);
@@ -329,16 +357,19 @@ bool Controls::card(const char* key, float height, bool selected) {
 }
 
 void Controls::note(const char* key, const std::string& text) {
+  if (!shows(key)) return;
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   ImGui::TextWrapped("%s", text.c_str());
   ImGui::PopStyleColor();
   log_place(key);
 }
 
-void Controls::area(const char* key, float width, float height, const std::string& help) {
+bool Controls::area(const char* key, float width, float height, const std::string& help) {
+  if (!shows(key)) return false;
   ImGui::Dummy(ImVec2(width, height));
   log_place(key);
   tell_help(help.c_str());
+  return true;
 }
 
 void Controls::show(const View& view, bool changed) {

@@ -1,10 +1,28 @@
 #pragma once
 
+#include <imgui.h>
+
+#include <algorithm>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/view/session.h"
 
 namespace clatter {
+
+/// Widgets in its life react to presses over the height of usual ones, though they are smaller.
+class Reach {
+ public:
+  /// For widgets `height` pixels high.
+  explicit Reach(float height, float usual = ImGui::GetFrameHeight()) {
+    ImGui::GetStyle().TouchExtraPadding.y = std::max(0.0f, 0.5f * (usual - height));
+  }
+  Reach(const Reach&) = delete;
+  Reach& operator=(const Reach&) = delete;
+  ~Reach() { ImGui::GetStyle().TouchExtraPadding.y = 0.0f; }
+};
 
 /// Description of a slider: key, texts and range.
 struct Slider {
@@ -28,6 +46,17 @@ class Controls {
  public:
   Controls(Session& session, ScriptLog& log) : session_(session), log_(log) {}
 
+  /// Draws only the controls with these names from now on, without headings.
+  void choose(std::vector<std::string> names) { chosen_ = std::move(names); }
+  /// Whether only chosen controls are drawn.
+  bool chooses() const { return chosen_.has_value(); }
+  /// Whether the control with this name is drawn.
+  bool shows(const std::string& name);
+  /// The chosen names without a control since the last call, with the nearest name of a control.
+  std::vector<std::pair<std::string, std::string>> take_missing();
+
+  /// Collapsible heading of a group in a panel. Returns true if the group is open.
+  bool group(const char* name);
   /// Slider for a law. `value` is the current value, `usual` the value of the opened scene.
   void law(const Slider& slider, double value, double usual);
   /// Slider for an integer. The value is set when the slider is released, and restarts the gas.
@@ -56,8 +85,8 @@ class Controls {
   bool card(const char* key, float height, bool selected);
   /// Faint text, wrapped at the width of the window.
   void note(const char* key, const std::string& text);
-  /// Area without content, with a tooltip; the caller draws its content.
-  void area(const char* key, float width, float height, const std::string& help);
+  /// Area without content, with a tooltip. Returns true if the caller has to draw its content.
+  bool area(const char* key, float width, float height, const std::string& help);
 
   /// Sets the view if it has `changed`. All changes up to the end of a drag are one undo entry.
   /// Call it in every frame.
@@ -81,6 +110,8 @@ class Controls {
 
   Session& session_;
   ScriptLog& log_;
+  std::optional<std::vector<std::string>> chosen_;  // absent: all controls are drawn
+  std::vector<std::string> offered_;  // names asked of shows() since the last take_missing()
   double before_ = 0.0;               // value at the start of the current drag
   std::optional<double> typed_;       // number in the open text field, if it was edited
   double held_ = 0.0;                 // pending value of the slider that is dragged
@@ -88,8 +119,5 @@ class Controls {
   double set_at_ = 0.0;               // time of the last change by a drag, seconds
   std::optional<View> shown_before_;  // view before the current drag
 };
-
-/// Collapsible heading of a group in a panel. Returns true if the group is open.
-bool group(const char* name);
 
 }  // namespace clatter

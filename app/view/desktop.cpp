@@ -61,8 +61,4 @@ void Desktop::close() {
   glfwSetWindowShouldClose(window_, GLFW_TRUE);
 }
 
-void Desktop::wake() {
-  glfwPostEmptyEvent();
-}
-
 }  // namespace clatter

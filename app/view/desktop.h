@@ -17,14 +17,15 @@ class Desktop final : public Host {
   Desktop(GLFWwindow* window, WindowInput& input);
 
   float content_scale() const override;
+  float least_target() const override { return 0.0f; }
   void set_title(const std::string& title) override;
   void copy(const std::string& text) override;
   void toggle_full_screen() override;
   void close() override;
   void deliver(const std::string&) override {}
-  void wake() override;
   std::string link_to(const std::string&) const override { return {}; }
   bool has_processes() const override { return true; }
+  ScreenRecorder* recorder() override { return nullptr; }
 
  private:
   GLFWwindow* window_;

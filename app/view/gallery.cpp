@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <cstdint>
-#include <utility>
 
 #include "engine/scene/scene_file.h"
 
 namespace clatter {
 
-Gallery::Gallery(const Gl& gl, std::function<void()> on_ready)
-    : thumbnails_(gl, std::move(on_ready)) {
+Gallery::Gallery(const Gl& gl) : thumbnails_(gl) {
   for (const EmbeddedFile& file : embedded_scenes()) {
     const Scene scene = load_gallery_scene(file);
     entries_.push_back({&file, std::string(file.name.substr(0, file.name.rfind('.'))), scene.title,
@@ -91,7 +90,9 @@ bool Gallery::select(int matches) {
   return selected_ != before;
 }
 
-const EmbeddedFile* Gallery::draw(Controls& controls, float width, float height) {
+const EmbeddedFile* Gallery::draw(Controls& controls, float width, float height, bool& open) {
+  constexpr std::chrono::milliseconds kBudget{8};
+  thumbnails_.work(kBudget);
   const EmbeddedFile* chosen = nullptr;
   const float unit = ImGui::GetFontSize();
   const ImVec2 size(std::min(58.0f * unit, 0.9f * width), std::min(46.0f * unit, 0.9f * height));
@@ -112,11 +113,14 @@ const EmbeddedFile* Gallery::draw(Controls& controls, float width, float height)
   if (io.WantTextInput ? enter : io.InputQueueCharacters.contains('/')) {
     ImGui::SetKeyboardFocusHere();
   }
-  ImGui::SetNextItemWidth(-FLT_MIN);
+  const float side = ImGui::GetFrameHeight();
+  ImGui::SetNextItemWidth(-side - ImGui::GetStyle().ItemSpacing.x);
   if (ImGui::InputTextWithHint("##search", "Search the gallery ( / )", search_.data(),
                                search_.size())) {
     selected_ = 0;
   }
+  ImGui::SameLine();
+  if (controls.button("gallery.close", "×", "Close (G)", side)) open = false;
   ImGui::Spacing();
   ImGui::BeginChild("scenes");
   const std::vector<const Entry*> found = matches();

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,12 +13,13 @@ namespace clatter {
 /// The gallery: a list of the built-in scenes, in the order of `clatter scenes`.
 class Gallery {
  public:
-  /// Calls `on_ready` when the picture of a scene is ready to be drawn, possibly on another thread.
-  Gallery(const Gl& gl, std::function<void()> on_ready);
+  explicit Gallery(const Gl& gl);
 
   /// Draws the gallery over a window of `width` x `height`. Arrow keys move the selection, Enter
-  /// chooses. Returns the chosen scene; null: none.
-  const EmbeddedFile* draw(Controls& controls, float width, float height);
+  /// chooses. A button sets `open` to false. Returns the chosen scene; null: none.
+  const EmbeddedFile* draw(Controls& controls, float width, float height, bool& open);
+  /// Whether the pictures of scenes are being made.
+  bool busy() const { return thumbnails_.busy(); }
   /// The scene `step` places after the scene with this title; the list is cyclic.
   const EmbeddedFile& neighbour(const std::string& title, int step) const;
 

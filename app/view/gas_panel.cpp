@@ -1,4 +1,4 @@
-#include <imgui.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -44,7 +44,7 @@ static void roughness(Session& session, Controls& controls) {
 }
 
 void gas_panel(Session& session, Controls& controls) {
-  if (!group("Gas")) return;
+  if (!controls.group("Gas")) return;
   const Scene& scene = session.scene();
   const bool disks = scene.dimension() == 2;
   if (session.opened().particles.start.layout != Layout::File) {
@@ -64,8 +64,9 @@ void gas_panel(Session& session, Controls& controls) {
                                               : "give a larger number by --set"},
                    scene.particles.count, session.opened().particles.count);
   }
-  ImGui::TextDisabled(disks ? "Area fraction φ = %.3f" : "Volume fraction %.3f",
-                      scene.packing_fraction());
+  controls.note("packing_fraction",
+                fmt::format("{} {:.3f}", disks ? "Area fraction φ =" : "Volume fraction",
+                            scene.packing_fraction()));
   controls.law({.key = "particles.restitution",
                 .name = "Restitution",
                 .symbol = "α",
@@ -73,7 +74,6 @@ void gas_panel(Session& session, Controls& controls) {
                         "1: elastic"},
                scene.particles.restitution, session.opened().particles.restitution);
   roughness(session, controls);
-  ImGui::Spacing();
 }
 
 }  // namespace clatter

@@ -19,8 +19,10 @@
 
 namespace clatter {
 
-static constexpr float kPanelWidth = 17.0f;     // usual width of a panel, in text sizes
-static constexpr float kPanelShare = 0.175f;    // width of a panel over the width of the window
+static constexpr float kPanelWidth = 17.0f;   // usual width of a panel, in text sizes
+static constexpr float kPanelShare = 0.175f;  // width of a panel over the width of the window
+// A narrower window has sheets: this many text sizes and heights of buttons.
+static constexpr float kNarrowText = 25.0f, kNarrowFrames = 14.0f;
 static constexpr float kLectureLetters = 1.6f;  // scale of the text in lecture mode
 
 Gui::Gui(Host& host, const Gl& gl, WindowInput& input, EngineLink& engine, ScriptLog& log)
@@ -31,7 +33,7 @@ Gui::Gui(Host& host, const Gl& gl, WindowInput& input, EngineLink& engine, Scrip
       session_(engine, log),
       controls_(session_, log),
       viewport_(gl),
-      gallery_(gl, [&host] { host.wake(); }),
+      gallery_(gl),
       gui_(gl) {}
 
 void Gui::open(const Scene& scene, std::uint64_t seed, std::optional<double> until) {
@@ -52,7 +54,7 @@ void Gui::begin() {
     ImGui::GetIO().FontDefault = const_cast<ImFont*>(add_fonts(atlas, size).text);
     gui_.upload(atlas);
   }
-  apply_style(size, panel_theme(shown_view()));
+  apply_style(size, host_.least_target(), panel_theme(shown_view()));
   scale_ = std::max(1.0f, ImGui::GetIO().DisplayFramebufferScale.x);
   ImGui::NewFrame();
 }
@@ -60,7 +62,8 @@ void Gui::begin() {
 void Gui::draw() {
   begin();
   if (session_.update()) {
-    viewport_.redraw();
+    // While a scene is being opened, the former gas stands still.
+    if (!session_.frame().opening) viewport_.redraw();
     history_.add(session_.frame());
   }
   if (title_ != session_.opened().title) {
@@ -69,7 +72,7 @@ void Gui::draw() {
   }
   watch_film();
   use_keys();
-  session_.show_profile(panels_.plots ? profiled_by(profiled()) : Profiled::Nothing,
+  session_.show_profile(panels_.shows_plots() ? profiled_by(profiled()) : Profiled::Nothing,
                         profile_axis());
   panels();
   viewport();
@@ -83,10 +86,16 @@ void Gui::draw() {
     if (std::exchange(drawn_views_, session_.views()) != session_.views()) viewport_.redraw();
     // Until the engine has opened a scene of another dimension, its view does not fit the frame.
     if (session_.scene().dimension() == session_.frame().scene->dimension()) {
-      viewport_.draw(session_.frame(), shown_view(), size, panels_.lecture ? kLectureLetters : 1.0);
+      constexpr double kLeast = 0.8;  // smallest text of the picture, in text sizes of the panels
+      viewport_.draw(session_.frame(), shown_view(), size, panels_.lecture ? kLectureLetters : 1.0,
+                     kLeast * text_size_);
     }
     viewport_.show(static_cast<int>(area_.low.x * scale_),
                    static_cast<int>((whole.y - area_.high.y) * scale_));
+    if (screen_film_) {
+      host_.recorder()->add(static_cast<int>(area_.low.x * scale_),
+                            static_cast<int>(area_.low.y * scale_), size);
+    }
   }
   gl.Viewport(0, 0, static_cast<int>(whole.x * scale_), static_cast<int>(whole.y * scale_));
   gl.Enable(GL_BLEND);
@@ -97,7 +106,10 @@ void Gui::draw() {
 void Gui::panels() {
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
   area_ = {ImVec2(0, 0), whole};
+  if (controls_.chooses()) return chosen_controls();
   const float unit = ImGui::GetFontSize();
+  panels_.narrow = whole.x < kNarrowText * unit + kNarrowFrames * ImGui::GetFrameHeight();
+  if (panels_.narrow) return sheets();
   const float width = std::round(
       std::clamp(kPanelShare * whole.x, 0.75f * kPanelWidth * unit, 1.3f * kPanelWidth * unit));
   if (panels_.panels) {
@@ -142,8 +154,19 @@ void Gui::left_panel(float top, float width) {
   box_panel(session_, controls_);
   view_panel(session_, controls_);
   accuracy_panel(session_, controls_);
-  switch (record_panel(controls_, host_.has_processes(),
-                       film_ ? std::optional(film_->done()) : std::nullopt)) {
+  record();
+  ImGui::End();
+}
+
+// The buttons of the record panel and their actions.
+void Gui::record() {
+  std::optional<double> filmed;
+  if (film_) filmed = film_->done();
+  if (screen_film_) filmed = ImGui::GetTime() - screen_film_->since;
+  const Films films = host_.has_processes() ? Films::OfRun
+                      : host_.recorder()    ? Films::OfScreen
+                                            : Films::None;
+  switch (record_panel(controls_, films, filmed)) {
     case Recording::Screenshot:
       screenshot();
       break;
@@ -162,10 +185,15 @@ void Gui::left_panel(float top, float width) {
     case Recording::StopFilm:
       film_->interrupt();
       break;
+    case Recording::FilmScreen:
+      film_screen();
+      break;
+    case Recording::StopScreen:
+      stop_screen_film();
+      break;
     case Recording::None:
       break;
   }
-  ImGui::End();
 }
 
 // The chosen axis of the profile; x if the box lacks it.
@@ -178,6 +206,13 @@ void Gui::plots_drawer(float top, float width) {
   ImGui::SetNextWindowPos(ImVec2(whole.x - width, top));
   ImGui::SetNextWindowSize(ImVec2(width, whole.y - top));
   ImGui::Begin("plots", nullptr, kFixedPanel);
+  plots();
+  ImGui::End();
+}
+
+// The plots and their choices, in the current window.
+void Gui::plots() {
+  const float height = std::round(0.62f * ImGui::GetWindowWidth());
   const ThemeColours theme = panel_theme(shown_view());
   std::vector<std::string> axes;
   for (int axis = 0; axis < session_.scene().dimension(); ++axis) {
@@ -194,12 +229,11 @@ void Gui::plots_drawer(float top, float width) {
       "mass, momentum and energy in the worst window. They start when the plots open, or when "
       "laws, averages or trails change. The engine then does about twice the work",
       profile_names(profile_axis()), profiled_, 0);
-  observable_plots(std::round(0.62f * width));
+  observable_plots(height);
   for (const LivePlot& plot : plots_of(history_, session_.frame(), profiled(), theme)) {
-    draw_plot(plot, std::round(0.62f * width));
+    draw_plot(plot, height);
     ImGui::Spacing();
   }
-  ImGui::End();
 }
 
 // The tables of the scene's observables, one of them plotted.
@@ -233,16 +267,18 @@ void Gui::viewport() {
     log_.event("gallery", {{"open", panels_.gallery}});
   }
   if (panels_.gallery) {
-    const EmbeddedFile* chosen = gallery_.draw(controls_, whole.x, whole.y);
+    const EmbeddedFile* chosen = gallery_.draw(controls_, whole.x, whole.y, panels_.gallery);
     if (chosen) open_gallery_scene(*chosen);
   }
   if (panels_.help) help_window(session_.scene().dimension(), whole.x, whole.y);
+  if (frame.opening) opening_note(session_, controls_, area_);
   if (!frame.scene) return;
   use_viewport();
   const ImGuiIO& io = ImGui::GetIO();
   if (io.MouseWheel != 0.0f || ImGui::IsMouseDown(0) || panels_.gallery) panels_.hint = false;
   message_.draw(session_, area_);
-  if (!message_.shown() && panels_.hint && !panels_.help && !panels_.lecture)
+  if (!message_.shown() && panels_.hint && !panels_.help && !panels_.lecture && !panels_.narrow &&
+      !controls_.chooses())
     hint_line(session_.scene().dimension(), area_);
   log_.widget("viewport", area_.low.x, area_.low.y, area_.high.x - area_.low.x,
               area_.high.y - area_.low.y);

@@ -2,6 +2,8 @@
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/system/program_job.h"
 #include "app/view/controls.h"
@@ -27,12 +29,20 @@ class Gui {
 
   /// Starts a scene. With `until` it stops at that simulation time.
   void open(const Scene& scene, std::uint64_t seed, std::optional<double> until = {});
+  /// Shows the gas alone and the controls with these names, as in the script log. A message names
+  /// those that the scene lacks.
+  void embed(std::vector<std::string> controls) { controls_.choose(std::move(controls)); }
+  /// Whether a place of the window shows the gas and no panel.
+  bool shows_gas(float x, float y) const;
   /// Shows a message.
   void tell(const std::string& message) { session_.tell(message); }
   /// Handles the input and draws the next picture of the window.
   void draw();
-  /// True while the window redraws without input: a film is being made, or a message is shown.
-  bool changes() const { return film_.has_value() || message_.shown(); }
+  /// True while the window redraws without input: a film or pictures of the gallery are being made,
+  /// or a message is shown.
+  bool changes() const {
+    return film_.has_value() || message_.shown() || (panels_.gallery && gallery_.busy());
+  }
 
  private:
   void begin();
@@ -47,7 +57,13 @@ class Gui {
   void panels();
   float top_panel();
   void left_panel(float top, float width);
+  void record();
   void plots_drawer(float top, float width);
+  void plots();
+  void sheets();
+  float sheet_bar();
+  void sheet();
+  void chosen_controls();
   void observable_plots(float height);
   std::size_t profiled() const { return static_cast<std::size_t>(profiled_); }
   Axis profile_axis() const;
@@ -66,6 +82,8 @@ class Gui {
   void copy_link();
   void film();
   void watch_film();
+  void film_screen();
+  void stop_screen_film();
 
   Host& host_;
   const Gl* gl_;
@@ -83,6 +101,11 @@ class Gui {
   std::string observable_;  // table_title() of the plotted table; unknown: the first
   std::optional<ProgramJob> film_;
   std::string film_file_;  // file of the film that is made
+  struct ScreenFilm {
+    std::string file;
+    double since;  // ImGui::GetTime() at its beginning
+  };
+  std::optional<ScreenFilm> screen_film_;
   GuiLayer gui_;
   PanelVisibility panels_;
   MessageNote message_;
@@ -92,6 +115,8 @@ class Gui {
   float text_size_ = 0.0f;         // size of the loaded fonts, pixels; 0: none
   float scale_ = 1.0f;             // pixels per window unit
   Area area_;                      // area of the viewport
+  float strip_ = 0.0f;             // height of the strip with the chosen controls, pixels
+  std::uint64_t checked_run_ = 0;  // run whose panels had the chosen controls
 };
 
 }  // namespace clatter

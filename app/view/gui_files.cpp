@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <imgui.h>
 
 #include <algorithm>
 #include <array>
@@ -32,7 +33,7 @@ static std::string free_name(const std::string& extension) {
   for (int number = 1;; ++number) {
     const std::string name = "clatter-" + std::to_string(number);
     const auto is_taken = [&](const char* other) { return std::filesystem::exists(name + other); };
-    if (std::ranges::none_of(std::array{".png", ".toml", ".csv", ".mp4"}, is_taken)) {
+    if (std::ranges::none_of(std::array{".png", ".toml", ".csv", ".mp4", ".webm"}, is_taken)) {
       return name + extension;
     }
   }
@@ -141,6 +142,26 @@ void Gui::watch_film() {
   log_.event("film", {{"file", film_file_}, {"code", *code}});
   session_.tell(made ? "Film: " + film_file_ : film_->message());
   film_.reset();
+}
+
+// Begins a film of the gas as the window shows it.
+void Gui::film_screen() {
+  if (!viewport_.drawn()) return;
+  try {
+    ScreenRecorder& recorder = *host_.recorder();
+    screen_film_ = {free_name(recorder.extension()), ImGui::GetTime()};
+    recorder.begin(viewport_.size());
+    session_.tell("Stop film ends the film");
+  } catch (const std::exception& error) {
+    session_.tell(error.what());
+  }
+}
+
+void Gui::stop_screen_film() {
+  host_.recorder()->end(screen_film_->file);
+  log_.event("film", {{"file", screen_film_->file}});
+  session_.tell("Film: " + screen_film_->file);
+  screen_film_.reset();
 }
 
 }  // namespace clatter

@@ -40,6 +40,10 @@ void Gui::use_function_key(const KeyPress& press) {
 
 void Gui::use_key(const KeyPress& press) {
   if (press.ctrl) return use_control_key(press);
+  // An embedded gas has no other parts.
+  const bool opens = press.key == GLFW_KEY_TAB ||
+                     std::string_view("ghlpt").find(press.letter) != std::string_view::npos;
+  if (controls_.chooses() && opens) return;
   // Who types a name into the gallery before the search is active must not restart the gas.
   if (panels_.gallery && press.letter != 'g' && press.letter != 'h') return;
   switch (press.key) {
@@ -76,13 +80,11 @@ void Gui::use_key(const KeyPress& press) {
     case 'm':
       return fix_range();
     case 'p':
-      panels_.plots = !panels_.plots;
-      return;
+      return panels_.toggle(Sheet::Plots);
     case 'r':
       return press.shift ? session_.restart_with_new_seed() : session_.restart();
     case 't':
-      panels_.lesson = !panels_.lesson;
-      return;
+      return panels_.toggle(Sheet::Lesson);
     default:
       return face_preset(press.letter);
   }
@@ -117,6 +119,7 @@ void Gui::use_signs() {
 
 void Gui::close_something() {
   if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return ImGui::ClosePopupToLevel(0, true);
+  if (session_.frame().opening && session_.frame().run > 0) return session_.cancel_open();
   // Dear ImGui ends the typing of a number.
   if (ImGui::GetIO().WantTextInput && !panels_.gallery) return;
   for (bool* open : {&panels_.gallery, &panels_.help, &panels_.plots}) {
@@ -124,6 +127,7 @@ void Gui::close_something() {
     *open = false;
     return;
   }
+  if (panels_.narrow && panels_.sheet != Sheet::None) return panels_.toggle(panels_.sheet);
   if (panels_.lecture) return lecture(false);
   viewport_.let_go();
 }

@@ -2,7 +2,25 @@
 
 #include <string>
 
+#include "render/camera.h"
+
 namespace clatter {
+
+/// Makes films of the picture in the window, in real time.
+class ScreenRecorder {
+ public:
+  virtual ~ScreenRecorder() = default;
+
+  /// Extension of the files, such as ".mp4".
+  virtual std::string extension() const = 0;
+  /// Begins a film of pictures of `size` pixels.
+  virtual void begin(Size size) = 0;
+  /// Adds the picture of `size` pixels that is now on the window, with its upper left corner at
+  /// (x, y). It is scaled to the size of the film.
+  virtual void add(int x, int y, Size size) = 0;
+  /// Ends the film, and gives it to the user as a file with this name.
+  virtual void end(const std::string& name) = 0;
+};
 
 /// The surroundings of the window: a desktop, or a page of a browser.
 class Host {
@@ -11,6 +29,8 @@ class Host {
 
   /// Scale of the text: pixels per point of the display.
   virtual float content_scale() const = 0;
+  /// Smallest height of a widget that the pointer hits easily, pixels; 0: any.
+  virtual float least_target() const = 0;
   /// Sets the title of the window.
   virtual void set_title(const std::string& title) = 0;
   /// Puts a text into the clipboard.
@@ -21,12 +41,12 @@ class Host {
   virtual void close() = 0;
   /// Gives a written file to the user, if files of the program are not yet those of the user.
   virtual void deliver(const std::string& file) = 0;
-  /// Makes the window draw again. May be called from other threads.
-  virtual void wake() = 0;
   /// The address that opens this window with a fragment of link_of(); empty: there is none.
   virtual std::string link_to(const std::string& fragment) const = 0;
   /// Whether the program can start processes, which make films.
   virtual bool has_processes() const = 0;
+  /// The recorder of the window; nullptr: there is none.
+  virtual ScreenRecorder* recorder() = 0;
 };
 
 }  // namespace clatter

@@ -37,6 +37,28 @@ void hint_line(int dimension, const Area& area) {
   end_note();
 }
 
+void opening_note(Session& session, Controls& controls, const Area& area) {
+  constexpr float kWidth = 18.0f;  // text sizes
+  const float unit = ImGui::GetFontSize();
+  const float width = std::min(kWidth * unit, area.high.x - area.low.x);
+  ImGui::SetNextWindowPos(
+      ImVec2(0.5f * (area.low.x + area.high.x), 0.5f * (area.low.y + area.high.y)), 0,
+      ImVec2(0.5f, 0.5f));
+  ImGui::SetNextWindowSize(ImVec2(width, 0.0f));
+  ImGui::Begin("opening", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
+  const Scene& scene = session.scene();
+  ImGui::Text("Placing %d %s", scene.particles.count, scene.dimension() == 2 ? "disks" : "spheres");
+  ImGui::ProgressBar(static_cast<float>(*session.frame().opening));
+  if (session.frame().run > 0 &&
+      controls.button("opening.cancel", "Cancel", "Keeps the former gas (Esc)",
+                      ImGui::GetContentRegionAvail().x)) {
+    session.cancel_open();
+  }
+  ImGui::End();
+}
+
 void MessageNote::draw(const Session& session, const Area& area) {
   constexpr float kShortest = 4.0f, kLongest = 8.0f, kPerLetter = 0.06f;  // seconds
   constexpr float kFade = 0.5f;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "app/view/controls.h"
 #include "app/view/session.h"
 
 namespace clatter {
@@ -15,6 +16,9 @@ struct Area {
 
 /// Draws one line with hints at the lower edge of the area, for a scene of this dimension.
 void hint_line(int dimension, const Area& area);
+/// Draws the progress of the scene that is being opened, in the middle of the area, with a button
+/// that cancels it if there is a former gas.
+void opening_note(Session& session, Controls& controls, const Area& area);
 /// Shows each message of the session for some seconds, longer texts for longer. The message stays
 /// while the mouse is over it.
 class MessageNote {

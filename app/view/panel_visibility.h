@@ -2,6 +2,9 @@
 
 namespace clatter {
 
+/// A sheet of a narrow window: a group of controls.
+enum class Sheet { None, Run, Gas, View, Record, Plots, Lesson };
+
 /// The open parts of the window.
 struct PanelVisibility {
   bool panels = true;
@@ -11,7 +14,22 @@ struct PanelVisibility {
   bool lesson = true;    ///< strip with the goal of the scene
   bool lecture = false;  ///< lecture mode: projector theme, large text, no panels at first
   bool hint = true;      ///< line with hints, until the first input
+  bool narrow = false;   ///< the window has room for one sheet instead of panels, plots and strip
+  Sheet sheet = Sheet::None;  ///< the open sheet of a narrow window
 
+  /// Whether the plots are shown.
+  bool shows_plots() const { return narrow ? panels && sheet == Sheet::Plots : plots; }
+  /// Opens or closes a part of the window that is a sheet in narrow windows: plots, strip, or a
+  /// sheet of a narrow window.
+  void toggle(Sheet part) {
+    if (narrow) {
+      sheet = sheet == part ? Sheet::None : part;
+    } else if (part == Sheet::Plots) {
+      plots = !plots;
+    } else if (part == Sheet::Lesson) {
+      lesson = !lesson;
+    }
+  }
   /// Opens or closes the gallery. Gallery and help are never open together.
   void toggle_gallery() {
     gallery = !gallery;

@@ -28,9 +28,23 @@ bool choose_slices(const Session& session, Controls& controls, View& view);
 /// at or above twice the thermal speed; of depths, half the diagonal of the box.
 std::array<double, 2> colour_ends(const Snapshot& snapshot, ColourBy colour_by);
 /// Action of the record panel.
-enum class Recording { None, Screenshot, SaveScene, CopyLink, CopyCommand, Film, StopFilm };
-/// Buttons for pictures and scene files, and for films or, without `films`, links. `filmed` is the
-/// completed fraction of the current film, 0..1; absent: no film. Returns the chosen action.
-Recording record_panel(Controls& controls, bool films, std::optional<double> filmed);
+enum class Recording {
+  None,
+  Screenshot,
+  SaveScene,
+  CopyLink,
+  CopyCommand,
+  Film,
+  StopFilm,
+  FilmScreen,
+  StopScreen
+};
+/// Films that the surroundings of the window can make: of the run from time 0 in the background, or
+/// of the screen from now on.
+enum class Films { None, OfRun, OfScreen };
+/// Buttons for pictures, scene files and films, and for links where no processes make films.
+/// `filmed` belongs to the current film: its completed fraction 0..1, or its seconds if it is of
+/// the screen; absent: no film. Returns the chosen action.
+Recording record_panel(Controls& controls, Films films, std::optional<double> filmed);
 
 }  // namespace clatter

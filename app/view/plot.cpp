@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/view/controls.h"
 #include "engine/scene/text.h"
 #include "render/colour_range.h"
 #include "render/layers/fonts.h"
@@ -220,6 +221,7 @@ void draw_plot(const LivePlot& plot, float height) {
   }
   ImGui::SameLine(button);
   ImGui::PushID(plot.title.c_str());
+  const Reach reach(ImGui::GetFontSize());
   if (ImGui::SmallButton("CSV")) ImGui::SetClipboardText(csv_of(plot).c_str());
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Copy the numbers");
   ImGui::PopID();

@@ -118,6 +118,11 @@ void Session::start(const OpenedScene& opened, const char* event) {
   send(command::Open{scene_, seed_, plays_});
 }
 
+void Session::cancel_open() {
+  log_.event("cancel", {{"command", sent_ + 1}});
+  send(command::CancelOpen{});
+}
+
 Scene Session::recorded() const {
   Scene scene = *frame().started;
   scene.changes = frame().scene->changes;

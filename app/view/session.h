@@ -51,6 +51,8 @@ class Session {
   /// Opens and starts a scene. Undo starts the former scene with its changes. Without `plays` the
   /// scene is paused.
   void open(const Scene& scene, std::uint64_t seed, bool plays = true);
+  /// Abandons the scene that is being opened. The former gas remains.
+  void cancel_open();
   /// Restarts the scene with the current laws. A scene with scheduled changes restarts with the
   /// laws it was opened with.
   void restart();

@@ -12,15 +12,17 @@
 namespace clatter {
 
 static bool choose_direction(Controls& controls, View& view) {
-  ImGui::TextUnformatted("View from");
+  if (!controls.chooses()) ImGui::TextUnformatted("View from");
   bool changed = false;
   const ImGuiStyle& style = ImGui::GetStyle();
   const float width = (ImGui::GetContentRegionAvail().x -
                        static_cast<float>(kPresets.size() - 1) * style.ItemInnerSpacing.x) /
                       static_cast<float>(kPresets.size());
   for (const Preset& preset : kPresets) {
-    if (&preset != kPresets.data()) ImGui::SameLine(0.0f, style.ItemInnerSpacing.x);
     const std::string key = std::string("view.from.") + preset.label;
+    if (&preset != kPresets.data() && controls.shows(key)) {
+      ImGui::SameLine(0.0f, style.ItemInnerSpacing.x);
+    }
     // An identifier keeps the label apart from others in the panel.
     const std::string label = std::string(preset.label) + "##" + key;
     if (controls.button(key.c_str(), label.c_str(), preset.help, width)) {

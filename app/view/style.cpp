@@ -1,5 +1,7 @@
 #include "app/view/style.h"
 
+#include <cmath>
+
 namespace clatter {
 
 Colour accent_colour() {
@@ -47,7 +49,7 @@ static void apply_colours(ImVec4* colours, const ThemeColours& theme) {
   colours[ImGuiCol_ModalWindowDimBg] = shade(theme.background, 0.6f);
 }
 
-void apply_style(float text_size, const ThemeColours& theme) {
+void apply_style(float text_size, float least_target, const ThemeColours& theme) {
   ImGuiStyle style;
   const float unit = text_size / 14.0f;
   style.WindowPadding = ImVec2(12, 10);
@@ -62,6 +64,11 @@ void apply_style(float text_size, const ThemeColours& theme) {
   style.PopupRounding = 6;
   style.ScrollbarRounding = 4;
   style.ScaleAllSizes(unit);
+  if (const float room = 0.5f * (least_target - text_size); room > style.FramePadding.y) {
+    style.FramePadding.y = std::round(room);
+    style.ItemSpacing.y *= 1.8f;
+    style.GrabMinSize *= 2.0f;
+  }
   style.WindowBorderSize = 0;
   style.PopupBorderSize = 1;
   style.FrameBorderSize = 0;

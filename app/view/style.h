@@ -7,8 +7,8 @@
 namespace clatter {
 
 /// Sets the style of the panels for a text size in pixels and a theme. All lengths scale with the
-/// text size.
-void apply_style(float text_size, const ThemeColours& theme);
+/// text size. Widgets are at least `least_target` pixels high; 0: usual height.
+void apply_style(float text_size, float least_target, const ThemeColours& theme);
 
 /// The colours of the view's theme, without the background colour of the view.
 ThemeColours panel_theme(View view);

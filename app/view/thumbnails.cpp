@@ -1,64 +1,68 @@
 #include "app/view/thumbnails.h"
 
-#include <chrono>
 #include <exception>
 #include <utility>
 
-#include "engine/dimension.h"
-#include "engine/publish/scheduled_run.h"
 #include "engine/scene/scene_file.h"
 #include "render/gl/canvas.h"
 
 namespace clatter {
 
-// The gas of a scene after a few seconds on screen; the number of events is limited.
-static Snapshot snapshot_of_scene(const EmbeddedFile& file) {
-  constexpr double kSeconds = 20.0;
-  constexpr std::uint64_t kMaxSteps = 60'000;
-  const Scene scene = load_gallery_scene(file);
-  return with_dimension(scene.dimension(), [&](auto dimension) {
-    ScheduledRun<dimension> run(scene, 1);
-    run.show(scene.view);
-    run.run_until(kSeconds * scene.view.speed, kNoLimit, kMaxSteps);
-    return run.snapshot();
-  });
-}
-
 GLuint Thumbnails::of(const EmbeddedFile& scene) {
-  finish();
   const auto found = textures_.find(scene.name);
   if (found != textures_.end()) return found->second ? found->second->id() : 0;
-  if (!making_) {
-    making_ = &scene;
-    constexpr auto kAnyThread = std::launch::async | std::launch::deferred;
-    snapshot_ = std::async(kAnyThread, [this, &scene] {
-      Snapshot snapshot = snapshot_of_scene(scene);
-      on_ready_();
-      return snapshot;
-    });
-  }
+  if (!making_) making_ = &scene;
   return 0;
 }
 
-void Thumbnails::finish() {
-  if (!making_ || snapshot_.wait_for(std::chrono::seconds(0)) == std::future_status::timeout)
-    return;
-  const EmbeddedFile& scene = *std::exchange(making_, nullptr);
-  textures_[scene.name];
+void Thumbnails::work(std::chrono::milliseconds budget) {
+  if (!making_) return;
   try {
-    draw(scene, snapshot_.get());
+    if (!advance(budget)) return;
+    draw();
   } catch (const std::exception&) {
     // The scene has no picture. Opening it reports the error.
+    textures_[making_->name];
   }
+  making_ = nullptr;
+  opening_.reset();
+  run_.reset();
 }
 
-void Thumbnails::draw(const EmbeddedFile& scene, const Snapshot& snapshot) {
-  View view = load_gallery_scene(scene).view;
-  view.overlay = false;
+// Starts the run, or continues it up to its picture. Returns whether it is there. The number of
+// events is limited.
+bool Thumbnails::advance(std::chrono::milliseconds budget) {
+  constexpr double kSeconds = 20.0;
+  constexpr std::uint64_t kMaxSteps = 60'000, kSlice = 500;
+  const auto due = std::chrono::steady_clock::now() + budget;
+  const auto over = [due] { return std::chrono::steady_clock::now() >= due; };
+  if (!run_) {
+    if (!opening_) {
+      const Scene scene = load_gallery_scene(*making_);
+      view_ = scene.view;
+      opening_.emplace(scene, 1);
+    }
+    if (!opening_->advance(over)) return false;
+    run_ = std::exchange(opening_, std::nullopt)->take();
+  }
+  while (!over()) {
+    const std::uint64_t steps = run_->counts().steps();
+    if (steps >= kMaxSteps) return true;
+    if (run_->run_until(kSeconds * view_.speed, kNoLimit, steps + kSlice)) return true;
+  }
+  return false;
+}
+
+void Thumbnails::draw() {
+  view_.overlay = false;
+  Frame frame;
+  run_->tell(frame, false);
+  const Snapshot& gas = frame.snapshot;
   const Canvas canvas(*gl_, kSize);
   canvas.bind();
-  Renderer renderer(*gl_);
-  renderer.draw(snapshot, renderer.fit(snapshot, kSize, view, {}), kSize, view, {});
+  if (!renderer_) renderer_.emplace(*gl_);
+  renderer_->fix(range_ends(gas, view_));
+  renderer_->draw(gas, renderer_->fit(gas, kSize, view_, {}), kSize, view_, {});
   const Image picture = canvas.read();
   Texture texture = generate<Texture>(*gl_, gl_->GenTextures);
   gl_->BindTexture(GL_TEXTURE_2D, texture.id());
@@ -67,7 +71,7 @@ void Thumbnails::draw(const EmbeddedFile& scene, const Snapshot& snapshot) {
   gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, kSize.width, kSize.height, 0, GL_RGBA,
                   GL_UNSIGNED_BYTE, picture.rgba.data());
   gl_->BindFramebuffer(GL_FRAMEBUFFER, 0);
-  textures_[scene.name] = std::move(texture);
+  textures_[making_->name] = std::move(texture);
 }
 
 }  // namespace clatter

@@ -1,42 +1,46 @@
 #pragma once
 
-#include <functional>
-#include <future>
+#include <chrono>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string_view>
-#include <utility>
 
 #include "engine/embedded_file.h"
-#include "engine/publish/snapshot.h"
+#include "engine/publish/opening_run.h"
+#include "engine/publish/watched_run.h"
 #include "render/gl/gl_object.h"
 #include "render/layers/renderer.h"
 
 namespace clatter {
 
-/// Small pictures of scenes, each a few seconds after the start. A worker thread simulates one
-/// scene at a time, or the calling thread where threads are missing. The calling thread draws the
-/// picture.
+/// Small pictures of scenes, each a few seconds after the start. They are made one after the other
+/// in slices of time, on the thread of the window.
 class Thumbnails {
  public:
   static constexpr Size kSize = {192, 144};  ///< size of the pictures
 
-  /// Calls `on_ready` on the worker thread when a scene is ready to be drawn.
-  Thumbnails(const Gl& gl, std::function<void()> on_ready)
-      : gl_(&gl), on_ready_(std::move(on_ready)) {}
+  explicit Thumbnails(const Gl& gl) : gl_(&gl) {}
 
-  /// The texture with the picture of a gallery scene; 0: not ready, or failed.
+  /// The texture with the picture of a gallery scene; 0: not ready, or failed. The first request
+  /// for a scene starts its picture if no other is being made.
   GLuint of(const EmbeddedFile& scene);
+  /// Continues the present picture for about `budget`.
+  void work(std::chrono::milliseconds budget);
+  /// Whether a picture is being made.
+  bool busy() const { return making_ != nullptr; }
 
  private:
-  void finish();
-  void draw(const EmbeddedFile& scene, const Snapshot& snapshot);
+  bool advance(std::chrono::milliseconds budget);
+  void draw();
 
   const Gl* gl_;
-  std::function<void()> on_ready_;
+  std::optional<Renderer> renderer_;                             // from the first picture on
   std::map<std::string_view, std::optional<Texture>> textures_;  // absent: failed
-  const EmbeddedFile* making_ = nullptr;                         // scene in the thread; null: none
-  std::future<Snapshot> snapshot_;
+  const EmbeddedFile* making_ = nullptr;                         // scene of the run; null: none
+  View view_;                                                    // of that scene
+  std::optional<OpeningRun> opening_;                            // until the run has started
+  std::unique_ptr<WatchedRun> run_;                              // from its start on
 };
 
 }  // namespace clatter

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/view/icons.h"
@@ -14,18 +15,30 @@ namespace clatter {
 
 namespace {
 
+// A button for one sign.
+bool sign_button(Controls& controls, const char* key, const char* sign, const char* help) {
+  if (!controls.shows(key)) return false;
+  const bool clicked = controls.button(key, sign, help, 1.1f * ImGui::GetFrameHeight());
+  ImGui::SameLine();
+  return clicked;
+}
+
 void speed_field(Session& session, Controls& controls) {
   const double speed = session.frame().speed;
-  if (controls.button("slower", "−", "Slower ( - )")) session.set_speed(speed / std::sqrt(2.0));
-  ImGui::SameLine();
-  const std::string text = fmt::format("{:.3g} /s", speed);
-  ImGui::AlignTextToFramePadding();
-  const float left = ImGui::GetCursorPosX();
-  ImGui::TextUnformatted(text.c_str());
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Simulation time per second");
-  ImGui::SameLine(left + 4.2f * ImGui::GetFontSize());
-  if (controls.button("faster", "+", "Faster ( + )")) session.set_speed(speed * std::sqrt(2.0));
-  ImGui::SameLine();
+  if (sign_button(controls, "slower", "−", "Slower ( - )")) {
+    session.set_speed(speed / std::sqrt(2.0));
+  }
+  if (controls.shows("speed")) {
+    const std::string text = fmt::format("{:.3g} /s", speed);
+    ImGui::AlignTextToFramePadding();
+    const float left = ImGui::GetCursorPosX();
+    ImGui::TextUnformatted(text.c_str());
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Simulation time per second");
+    ImGui::SameLine(left + 4.2f * ImGui::GetFontSize());
+  }
+  if (sign_button(controls, "faster", "+", "Faster ( + )")) {
+    session.set_speed(speed * std::sqrt(2.0));
+  }
 }
 
 struct Health {
@@ -51,15 +64,20 @@ Health health_of(const Frame& frame) {
   return health;
 }
 
-// Speed, collision rate, time and health at the right end of the bar.
+// Speed, collision rate, time and health at the right end of the bar, as far as there is room.
 void figures(const Frame& frame, Controls& controls) {
-  std::string text;
-  if (frame.plays && frame.held < 0.95) text += fmt::format("{:.2g}x   ", frame.held);
-  if (frame.plays) text += fmt::format("{:.3g} collisions/s   ", frame.events_per_second);
-  text += fmt::format("t = {:.2f}", frame.snapshot.time);
   const float unit = ImGui::GetFontSize();
-  const float width = ImGui::CalcTextSize(text.c_str()).x;
-  ImGui::SameLine(ImGui::GetContentRegionMax().x - width - 1.4f * unit);
+  const float right = ImGui::GetContentRegionMax().x - 1.4f * unit;
+  const float room = right - ImGui::GetCursorPosX();
+  const auto width = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
+  std::string text;
+  const auto put_before = [&](const std::string& figure) {
+    if (width(figure + text) < room) text = figure + text;
+  };
+  put_before(fmt::format("t = {:.2f}", frame.snapshot.time));
+  if (frame.plays) put_before(fmt::format("{:.3g} collisions/s   ", frame.events_per_second));
+  if (frame.plays && frame.held < 0.95) put_before(fmt::format("{:.2g}x   ", frame.held));
+  ImGui::SetCursorPosX(right - width(text));
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", text.c_str());
   ImGui::SameLine();
@@ -70,36 +88,78 @@ void figures(const Frame& frame, Controls& controls) {
       ImVec2(0.5f * (low.x + high.x), 0.5f * (low.y + high.y)), 0.3f * unit, packed(health.colour));
 }
 
-}  // namespace
-
-void top_bar(Session& session, Controls& controls, PanelVisibility& shown) {
-  const Frame& frame = session.frame();
-  const std::string title = session.scene().title.empty() ? "Untitled" : session.scene().title;
-  if (controls.button("gallery", ("≡  " + title + "##gallery").c_str(), "The gallery (G)")) {
+// Opens and closes the gallery. The title of the scene is cut at `widest` pixels.
+void gallery_button(const Session& session, Controls& controls, PanelVisibility& shown,
+                    float widest) {
+  const std::string& title = session.scene().title;
+  const std::string label = "≡  " + (title.empty() ? "Untitled" : title);
+  const float width =
+      ImGui::CalcTextSize(label.c_str()).x + 2.0f * ImGui::GetStyle().FramePadding.x;
+  if (controls.button("gallery", (label + "###gallery").c_str(), "The gallery (G)",
+                      std::min(width, widest))) {
     shown.toggle_gallery();
   }
   ImGui::SameLine();
-  const bool plays = frame.plays;
+}
+
+void play_button(Session& session, Controls& controls) {
+  const bool plays = session.frame().plays;
   if (icon_button(controls, "play", plays ? Icon::Pause : Icon::Play,
                   plays ? "Pause (Space)" : "Play (Space)")) {
     session.play(!plays);
   }
+}
+
+void reset_button(Session& session, Controls& controls) {
+  if (icon_button(controls, "reset", Icon::Reset, "Restart (R; Shift+R with a new seed)")) {
+    session.restart();
+  }
+}
+
+void step_buttons(Session& session, Controls& controls) {
   if (icon_button(controls, "frame", Icon::Frame, "Next frame ( . )")) session.step_frame();
   if (icon_button(controls, "collision", Icon::Collision, "Next collision (Shift + . )")) {
     session.step_collision();
   }
-  if (icon_button(controls, "reset", Icon::Reset, "Restart (R; Shift+R with a new seed)")) {
-    session.restart();
-  }
+}
+
+}  // namespace
+
+void step_row(Session& session, Controls& controls) {
+  step_buttons(session, controls);
   speed_field(session, controls);
-  if (controls.button("plots", "Plots", "Curves of the run (P)")) shown.plots = !shown.plots;
+  const bool drawn = ImGui::GetCursorPosX() > ImGui::GetCursorStartPos().x;
+  if (drawn) ImGui::NewLine();
+}
+
+void play_row(Session& session, Controls& controls) {
+  play_button(session, controls);
+  reset_button(session, controls);
+  step_row(session, controls);
+}
+
+void top_bar(Session& session, Controls& controls, PanelVisibility& shown) {
+  if (shown.narrow) {
+    const float icon = 1.35f * ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x;
+    gallery_button(session, controls, shown, ImGui::GetContentRegionMax().x - 3.0f * icon);
+    play_button(session, controls);
+    reset_button(session, controls);
+    return figures(session.frame(), controls);
+  }
+  gallery_button(session, controls, shown, FLT_MAX);
+  play_button(session, controls);
+  step_buttons(session, controls);
+  reset_button(session, controls);
+  speed_field(session, controls);
+  if (controls.button("plots", "Plots", "Curves of the run (P)")) shown.toggle(Sheet::Plots);
   ImGui::SameLine();
   if (controls.button("lesson", "Try this", "Goal and suggestions (T)")) {
-    shown.lesson = !shown.lesson;
+    shown.toggle(Sheet::Lesson);
   }
   ImGui::SameLine();
   if (controls.button("help", "?", "Keys and mouse (F1)")) shown.toggle_help();
-  figures(frame, controls);
+  ImGui::SameLine();
+  figures(session.frame(), controls);
 }
 
 }  // namespace clatter

@@ -149,7 +149,7 @@ std::array<double, 2> colour_ends(const Snapshot& snapshot, ColourBy colour_by) 
 }
 
 void view_panel(Session& session, Controls& controls) {
-  if (!group("View")) return;
+  if (!controls.group("View")) return;
   View view = session.view();
   const View& usual = session.opened().view;
   const bool disks = session.scene().dimension() == 2;
@@ -180,7 +180,6 @@ void view_panel(Session& session, Controls& controls) {
   changed |= controls.toggle("view.overlay", "Title, figures and scales",
                              "Text and legends on the picture, as in films", view.overlay);
   controls.show(view, changed);
-  ImGui::Spacing();
 }
 
 }  // namespace clatter

@@ -17,10 +17,12 @@ class Viewport {
   explicit Viewport(const Gl& gl) : gl_(&gl), renderer_(gl) {}
 
   /// Draws a frame off screen at `size` pixels if anything has changed. `letters` scales the text
-  /// relative to films.
-  void draw(const Frame& frame, const View& view, Size size, double letters);
+  /// relative to films, and `least` is its smallest size in pixels.
+  void draw(const Frame& frame, const View& view, Size size, double letters, double least);
   /// Copies the picture to the window. (x, y) is its lower left corner in pixels of the window.
   void show(int x, int y) const;
+  /// Size of the picture, pixels. Requires drawn().
+  Size size() const { return canvas_->size(); }
   /// The current picture. Requires drawn().
   Image picture() const { return canvas_->read(); }
 

@@ -6,9 +6,14 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "app/view/gui.h"
 #include "app/view/link.h"
@@ -55,6 +60,10 @@ class Page {
     ImGuiIO& io = ImGui::GetIO();
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
     map_keys(io);
+    io.ClipboardUserData = &host_;
+    io.SetClipboardTextFn = [](void* host, const char* text) {
+      static_cast<PageHost*>(host)->copy(text);
+    };
   }
 
   void open(const char* fragment, std::optional<double> until) {
@@ -65,6 +74,19 @@ class Page {
       gui_.tell(error.what());
     }
   }
+
+  // Shows the gas alone, with the controls of these names, separated by commas.
+  void embed(std::string_view names) {
+    std::vector<std::string> controls;
+    for (std::size_t at = 0; at < names.size();) {
+      const std::size_t end = std::min(names.find(',', at), names.size());
+      controls.emplace_back(names.substr(at, end - at));
+      at = end + 1;
+    }
+    gui_.embed(std::move(controls));
+  }
+
+  bool shows_gas(float x, float y) const { return gui_.shows_gas(x, y); }
 
   void resize(float width, float height) {
     ImGui::GetIO().DisplaySize = ImVec2(width, height);
@@ -80,6 +102,24 @@ class Page {
       pressed_[k] |= held_[k];
     }
     io.MouseWheel += wheel;
+    settle();
+  }
+
+  // Moves the pointer without a motion between.
+  void place(float x, float y) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos = io.MousePosPrev = ImVec2(x, y);
+  }
+
+  // Moves the content of the panel at a place, pixels downwards.
+  void scroll(float x, float y, float pixels) {
+    constexpr float kStep = 5.0f;  // of the wheel in Dear ImGui, in text sizes
+    point(x, y, 0, pixels / (kStep * ImGui::GetFontSize()));
+  }
+
+  // The last finger has left. The pointer leaves too, once the release has been seen.
+  void lift() {
+    lifted_ = true;
     settle();
   }
 
@@ -116,6 +156,11 @@ class Page {
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     gl.Clear(GL_COLOR_BUFFER_BIT);
     gui_.draw();
+    if (lifted_ && !io.MouseDown[0] && !io.MouseDown[1]) {
+      io.MousePos = ImVec2(-FLT_MAX, -FLT_MAX);
+      lifted_ = false;
+      settle();
+    }
     if (left_ > 0) --left_;
     return engine_.busy() || gui_.changes() || left_ > 0;
   }
@@ -142,6 +187,7 @@ class Page {
   Gui gui_{host_, context_.gl(), input_, engine_, log_};
   bool held_[3] = {}, pressed_[3] = {};  // mouse buttons now, and since the last picture
   bool opened_ = false;
+  bool lifted_ = false;
   int left_ = 0;
   Clock::time_point last_ = Clock::now();
 };
@@ -175,6 +221,9 @@ EMSCRIPTEN_KEEPALIVE const char* clatter_start(const char* fragment, double unti
 EMSCRIPTEN_KEEPALIVE void clatter_open(const char* fragment, double until) {
   page->open(fragment, clatter::limit(until));
 }
+EMSCRIPTEN_KEEPALIVE void clatter_embed(const char* controls) {
+  page->embed(controls);
+}
 EMSCRIPTEN_KEEPALIVE int clatter_draw() {
   return page->draw();
 }
@@ -183,6 +232,19 @@ EMSCRIPTEN_KEEPALIVE void clatter_resize(double width, double height) {
 }
 EMSCRIPTEN_KEEPALIVE void clatter_point(double x, double y, int buttons, double wheel) {
   page->point(static_cast<float>(x), static_cast<float>(y), buttons, static_cast<float>(wheel));
+}
+// Whether a place shows the gas and no panel.
+EMSCRIPTEN_KEEPALIVE int clatter_shows_gas(double x, double y) {
+  return page->shows_gas(static_cast<float>(x), static_cast<float>(y));
+}
+EMSCRIPTEN_KEEPALIVE void clatter_place(double x, double y) {
+  page->place(static_cast<float>(x), static_cast<float>(y));
+}
+EMSCRIPTEN_KEEPALIVE void clatter_scroll(double x, double y, double pixels) {
+  page->scroll(static_cast<float>(x), static_cast<float>(y), static_cast<float>(pixels));
+}
+EMSCRIPTEN_KEEPALIVE void clatter_lift() {
+  page->lift();
 }
 EMSCRIPTEN_KEEPALIVE void clatter_key(int key, int letter, int shift, int ctrl, int down,
                                       int repeated) {

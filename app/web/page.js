@@ -4,6 +4,7 @@
 
 const canvas = document.getElementById('canvas');
 const note = document.getElementById('note');
+const finger = matchMedia('(pointer: coarse)');
 const query = new URLSearchParams(location.search);
 const log = [];  // lines of the script log, with ?log
 
@@ -31,27 +32,73 @@ function wake() {
 
 // ---- what the program asks of the page ----
 
-function save(name, bytes) {
-  const types = {png: 'image/png', csv: 'text/csv', toml: 'application/toml'};
+function save(name, pieces) {
+  const types = {png: 'image/png', csv: 'text/csv', toml: 'application/toml', mp4: 'video/mp4',
+                 webm: 'video/webm'};
   const link = document.createElement('a');
   const type = types[name.split('.').pop()] || 'application/octet-stream';
-  link.href = URL.createObjectURL(new Blob([bytes], {type}));
+  link.href = URL.createObjectURL(new Blob(pieces, {type}));
   link.download = name;
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
+// ---- films: the part of the canvas with the gas, by the encoders of the browser ----
+
+const film_types = ['video/mp4;codecs=avc1.64002A', 'video/webm;codecs=vp9', 'video/webm', 'video/mp4'];
+const film_type = typeof MediaRecorder === 'function'
+    ? film_types.find((type) => MediaRecorder.isTypeSupported(type)) : undefined;
+let film = null;  // the film that is recorded
+
+class Film {
+  constructor(width, height) {
+    const longest = 1920, bits_per_pixel = 6, even = (length) => 2 * Math.round(length / 2);
+    const scale = Math.min(1, longest / Math.max(width, height));
+    this.sheet = document.createElement('canvas');
+    this.sheet.width = even(scale * width);
+    this.sheet.height = even(scale * height);
+    this.pen = this.sheet.getContext('2d', {alpha: false});
+    const stream = this.sheet.captureStream(0);  // takes a frame when asked
+    this.track = stream.getVideoTracks()[0];
+    this.recorder = new MediaRecorder(stream, {
+      mimeType: film_type, videoBitsPerSecond: bits_per_pixel * this.sheet.width * this.sheet.height});
+    this.pieces = [];
+    this.recorder.ondataavailable = (event) => { this.pieces.push(event.data); };
+    this.recorder.start();
+  }
+
+  add(x, y, width, height) {
+    const {sheet, pen} = this;
+    const scale = Math.min(sheet.width / width, sheet.height / height);
+    const [wide, tall] = [scale * width, scale * height];
+    pen.clearRect(0, 0, sheet.width, sheet.height);
+    pen.drawImage(canvas, x, y, width, height, (sheet.width - wide) / 2, (sheet.height - tall) / 2,
+                  wide, tall);
+    this.track.requestFrame();
+  }
+
+  end(name) {
+    this.recorder.onstop = () => save(name, this.pieces);
+    this.recorder.stop();
+  }
+}
+
 var Module = {
   page: {
     scale: () => devicePixelRatio,
+    // Fingers hit areas of 40 pixels of the page.
+    target: () => finger.matches ? 40 * devicePixelRatio : 0,
     title: (text) => { document.title = text; },
     copy: (text) => { navigator.clipboard?.writeText(text).catch(() => {}); },
     fullScreen: () => {
       if (document.fullscreenElement) document.exitFullscreen();
       else document.documentElement.requestFullscreen?.().catch(() => {});
     },
-    deliver: (file) => save(file, Module.FS.readFile(file)),
-    wake,
+    deliver: (file) => save(file, [Module.FS.readFile(file)]),
+    filmExtension: () => film_type ? '.' + film_type.split(/[/;]/)[1] : '',
+    beginFilm: (width, height) => { film = new Film(width, height); },
+    film: (x, y, width, height) => film?.add(x, y, width, height),
+    endFilm: (name) => { film.end(name); film = null; },
     link: (fragment) => location.href.split(/[?#]/)[0] + '#' + fragment,
   },
   print: (line) => { log.push(line); },
@@ -76,13 +123,25 @@ function resize() {
   wake();
 }
 
-// ---- pointers: mouse, pen and touch; two fingers move and zoom ----
+// ---- pointers: mouse, pen and touch ----
 
+// One finger is the left button of the mouse, except that it scrolls panels along y. Two fingers
+// move and zoom the view.
 const fingers = new Map();
 let pinch = null;  // middle and distance of two fingers
+let touch = null;  // the only finger on a panel: its place at the start, and what it does
 
 function point(x, y, buttons, wheel = 0) {
   Module._clatter_point(x * devicePixelRatio, y * devicePixelRatio, buttons, wheel);
+  wake();
+}
+
+function place(x, y) {
+  Module._clatter_place(x * devicePixelRatio, y * devicePixelRatio);
+}
+
+function scroll(x, y, way) {
+  Module._clatter_scroll(x * devicePixelRatio, y * devicePixelRatio, way * devicePixelRatio);
   wake();
 }
 
@@ -91,32 +150,71 @@ function pinched() {
   return {x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, apart: Math.hypot(a.x - b.x, a.y - b.y)};
 }
 
+function use_pinch() {
+  const now = pinched();
+  const right = 2;
+  if (!pinch) place(now.x, now.y);
+  // A zoom step of the wheel is a factor of .85.
+  const wheel = pinch ? Math.log(now.apart / pinch.apart) / -Math.log(0.85) : 0;
+  point(now.x, now.y, right, wheel);
+  pinch = now;
+}
+
+function put_finger(x, y) {
+  const on_gas = Module._clatter_shows_gas(x * devicePixelRatio, y * devicePixelRatio);
+  touch = {x, y, last: y, does: on_gas ? 'press' : 'nothing yet'};
+  place(x, y);
+  point(x, y, on_gas ? 1 : 0);
+}
+
+function move_finger(x, y) {
+  const slack = 8;
+  const [right, down] = [Math.abs(x - touch.x), Math.abs(y - touch.y)];
+  if (touch.does === 'nothing yet' && Math.max(right, down) > slack) {
+    touch.does = down > right ? 'scroll' : 'press';
+  }
+  if (touch.does === 'press') point(x, y, 1);
+  if (touch.does === 'scroll') {
+    scroll(touch.x, touch.y, y - touch.last);
+    touch.last = y;
+  }
+}
+
+function lift_finger(x, y) {
+  if (touch.does === 'nothing yet') point(x, y, 1);
+  point(x, y, 0);
+  touch = null;
+}
+
+function on_touch(event) {
+  const {clientX: x, clientY: y, pointerId: id} = event;
+  const begins = event.type === 'pointerdown';
+  const held = begins || fingers.has(id);
+  const moves = event.type === 'pointermove';
+  if (!held) return;
+  if (begins || moves) fingers.set(id, {x, y});
+  else fingers.delete(id);
+  if (fingers.size === 2) {
+    touch = null;
+    use_pinch();
+    return;
+  }
+  if (pinch) point(pinch.x, pinch.y, 0);
+  pinch = null;
+  if (begins && fingers.size === 1) put_finger(x, y);
+  else if (moves && touch) move_finger(x, y);
+  else if (touch) lift_finger(x, y);
+  if (fingers.size === 0) Module._clatter_lift();
+}
+
 function on_pointer(event) {
-  const touch = event.pointerType === 'touch';
   if (event.type === 'pointerdown') {
     canvas.focus();
     canvas.setPointerCapture(event.pointerId);
-    if (touch) fingers.set(event.pointerId, {x: event.clientX, y: event.clientY});
-  } else if (event.type === 'pointermove') {
-    if (fingers.has(event.pointerId)) {
-      fingers.set(event.pointerId, {x: event.clientX, y: event.clientY});
-    }
-  } else {
-    fingers.delete(event.pointerId);
   }
-  if (fingers.size === 2) {
-    const now = pinched();
-    const right = 2;
-    // A zoom step of the wheel is a factor of .85.
-    const wheel = pinch ? Math.log(now.apart / pinch.apart) / -Math.log(0.85) : 0;
-    point(now.x, now.y, right, wheel);
-    pinch = now;
-  } else if (fingers.size < 2) {
-    pinch = null;
-    // DOM: left, right, middle are 1, 2, 4, as for Dear ImGui.
-    const buttons = touch ? fingers.size : event.buttons;
-    point(event.clientX, event.clientY, buttons);
-  }
+  if (event.pointerType === 'touch') on_touch(event);
+  // DOM: left, right, middle are 1, 2, 4, as for Dear ImGui.
+  else point(event.clientX, event.clientY, event.buttons);
   event.preventDefault();
 }
 
@@ -190,6 +288,7 @@ function start() {
     note.textContent = failure;
     return;
   }
+  if (query.has('embed')) text_of('clatter_embed', query.get('controls') || '');
   ready = true;
   note.textContent = '';
   resize();

@@ -6,17 +6,17 @@
 
 // clang-format off
 EM_JS(double, page_scale, (), { return Module.page.scale(); })
+EM_JS(double, page_target, (), { return Module.page.target(); })
 EM_JS(void, page_title, (const char* title), { Module.page.title(UTF8ToString(title)); })
 EM_JS(void, page_copy, (const char* text), { Module.page.copy(UTF8ToString(text)); })
 EM_JS(void, page_full_screen, (), { Module.page.fullScreen(); })
 EM_JS(void, page_deliver, (const char* file), { Module.page.deliver(UTF8ToString(file)); })
-EM_JS(void, page_wake, (), { Module.page.wake(); })
+EM_JS(void, page_begin_film, (int width, int height), { Module.page.beginFilm(width, height); })
+EM_JS(void, page_film, (int x, int y, int width, int height), { Module.page.film(x, y, width, height); })
+EM_JS(void, page_end_film, (const char* name), { Module.page.endFilm(UTF8ToString(name)); })
+EM_JS(char*, page_film_extension, (), { return stringToNewUTF8(Module.page.filmExtension()); })
 EM_JS(char*, page_link, (const char* fragment), {
-  const link = Module.page.link(UTF8ToString(fragment));
-  const size = lengthBytesUTF8(link) + 1;
-  const text = _malloc(size);
-  stringToUTF8(link, text, size);
-  return text;
+  return stringToNewUTF8(Module.page.link(UTF8ToString(fragment)));
 })
 // clang-format on
 
@@ -25,6 +25,10 @@ namespace clatter {
 // The style of the panels is for whole pixels of the device.
 float PageHost::content_scale() const {
   return static_cast<float>(page_scale());
+}
+
+float PageHost::least_target() const {
+  return static_cast<float>(page_target());
 }
 
 void PageHost::set_title(const std::string& title) {
@@ -43,15 +47,35 @@ void PageHost::deliver(const std::string& file) {
   page_deliver(file.c_str());
 }
 
-void PageHost::wake() {
-  page_wake();
+// A copy of a text that the page has allocated.
+static std::string taken(char* text) {
+  std::string copy(text);
+  std::free(text);
+  return copy;
 }
 
 std::string PageHost::link_to(const std::string& fragment) const {
-  char* const text = page_link(fragment.c_str());
-  std::string link(text);
-  std::free(text);
-  return link;
+  return taken(page_link(fragment.c_str()));
+}
+
+ScreenRecorder* PageHost::recorder() {
+  return recorder_.extension().empty() ? nullptr : &recorder_;
+}
+
+std::string PageRecorder::extension() const {
+  return taken(page_film_extension());
+}
+
+void PageRecorder::begin(Size size) {
+  page_begin_film(size.width, size.height);
+}
+
+void PageRecorder::add(int x, int y, Size size) {
+  page_film(x, y, size.width, size.height);
+}
+
+void PageRecorder::end(const std::string& name) {
+  page_end_film(name.c_str());
 }
 
 }  // namespace clatter

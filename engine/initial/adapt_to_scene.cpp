@@ -11,13 +11,16 @@ namespace clatter {
 template <int D>
 State<D> adapt_to_scene(const State<D>& state, const Scene& scene, std::uint64_t seed) {
   const Vec<D> corner = scene.clear_corner();
-  std::vector<Vec<D>> wanted = state.positions;
-  for (Vec<D>& position : wanted) position -= corner;
-  std::vector<std::size_t> kept;
+  const auto count = static_cast<std::size_t>(scene.particles.count);
   Random random(seed, Stream::Placement, 1, 0);
+  RandomInsertion<D> insertion(scene.start_room<D>(), scene.particles.count, random);
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < state.positions.size() && kept.size() < count; ++i) {
+    if (insertion.place_first(state.positions[i] - corner)) kept.push_back(i);
+  }
+  insertion.advance();
   State<D> fitted;
-  fitted.positions =
-      random_insertion(scene.start_room<D>(), scene.particles.count, random, wanted, kept);
+  fitted.positions = insertion.take();
   if (fitted.positions.empty()) return start_state<D>(scene, seed);
 
   const double speed = std::sqrt(temperature_of(state));

@@ -5,10 +5,21 @@
 #include <cmath>
 #include <cstdint>
 #include <deque>
+#include <utility>
 
 #include "engine/dynamics/cell_grid.h"
 
 namespace clatter {
+
+template <int D>
+struct RandomInsertion<D>::Work {
+  virtual ~Work() = default;
+  // As place_first().
+  virtual bool place_first(const Vec<D>& point) = 0;
+  // As advance().
+  virtual bool place(std::size_t count, Random& random, const StopRequest& pause) = 0;
+  virtual std::vector<Vec<D>>& placed() = 0;
+};
 
 namespace {
 
@@ -18,7 +29,7 @@ namespace {
 // split into 2^D, and those that one particle covers are dropped. So tries continue to succeed up
 // to the jamming density.
 template <int D>
-class Insertion {
+class Insertion : public RandomInsertion<D>::Work {
  public:
   explicit Insertion(const Room<D>& room) : room_(room) {
     std::size_t cells = 1;
@@ -36,24 +47,26 @@ class Insertion {
     centres_.resize(cells, kEmpty);
     collect(
         Voxel::Zero(), counts_ - Voxel::Ones(), [](const Voxel&) { return false; }, open_);
+    tries_left_ = open_.size();
   }
 
   // Places particles until there are `count`, no voxel is open, or voxels cannot be split further.
-  void place(std::size_t count, Random& random, const StopRequest& stop) {
+  // Returns false at a request to pause.
+  bool place(std::size_t count, Random& random, const StopRequest& pause) override {
     placed_.reserve(count);
-    for (int level = 0; level < kLevels && !open_.empty(); ++level) {
-      const std::size_t tries = open_.size();
-      for (std::size_t k = 0; k < tries; ++k) {
-        if (placed_.size() == count) return;
-        stop.check();
+    while (level_ < kLevels && !open_.empty()) {
+      for (; tries_left_ > 0; --tries_left_) {
+        if (placed_.size() == count) return true;
+        if (pause.made()) return false;
         try_once(open_[random.below(open_.size())], random);
       }
-      split_voxels(stop);
+      if (!split_voxels(pause)) return false;
     }
+    return true;
   }
 
   // Places a particle at a point if there is room. To be called before place().
-  bool place_first(const Vec<D>& point) {
+  bool place_first(const Vec<D>& point) override {
     Voxel voxel;
     for (int axis = 0; axis < D; ++axis) {
       const double place = std::floor((point[axis] - low_[axis]) / widths_[axis]);
@@ -63,7 +76,7 @@ class Insertion {
     return place_at(point, voxel);
   }
 
-  std::vector<Vec<D>>& placed() { return placed_; }
+  std::vector<Vec<D>>& placed() override { return placed_; }
 
  private:
   static constexpr std::uint32_t kEmpty = 0xffffffffu;
@@ -107,10 +120,12 @@ class Insertion {
     return true;
   }
 
-  void split_voxels(const StopRequest& stop) {
-    ++level_;
-    widths_ *= 0.5;
-    std::deque<Voxel> split;
+  // Returns false at a request to pause.
+  bool split_voxels(const StopRequest& pause) {
+    if (!std::exchange(splits_, true)) {
+      ++level_;
+      widths_ *= 0.5;
+    }
     const auto is_covered = [&](const Voxel& voxel) {
       const Vec<D> half = 0.5 * widths_;
       Vec<D> middle;
@@ -121,11 +136,14 @@ class Insertion {
       });
     };
     for (; !open_.empty(); open_.pop_front()) {
-      stop.check();
+      if (pause.made()) return false;
       const Voxel parent = 2 * open_.front();
-      collect(parent, parent + Voxel::Ones(), is_covered, split);
+      collect(parent, parent + Voxel::Ones(), is_covered, split_);
     }
-    open_ = std::move(split);
+    open_ = std::exchange(split_, {});
+    tries_left_ = open_.size();
+    splits_ = false;
+    return true;
   }
 
   // Whether a particle near the voxel is closer than a diameter, by the given offset of its centre.
@@ -180,37 +198,42 @@ class Insertion {
   std::vector<Vec<D>> placed_;
   std::vector<std::uint32_t> centres_;  // particle in each cell, or kEmpty
   std::deque<Voxel> open_;              // releases its memory from the front as voxels are split
+  std::deque<Voxel> split_;             // open parts of the voxels that have been split
+  bool splits_ = false;                 // some voxels of open_ have been split
+  std::size_t tries_left_ = 0;          // before the next splitting
 };
 
 // Random insertion for few particles in a large room, where almost every try succeeds. Memory grows
 // with the particles, not with the room.
 template <int D>
-class SparseInsertion {
+class SparseInsertion : public RandomInsertion<D>::Work {
  public:
   SparseInsertion(const Room<D>& room, std::size_t count)
       : model_(empty(room)), grid_(model_, static_cast<double>(count)) {
     placed_.reserve(count);
   }
 
-  void place(std::size_t count, Random& random, const StopRequest& stop) {
+  bool place(std::size_t count, Random& random, const StopRequest& pause) override {
+    placed_.reserve(count);
     while (placed_.size() < count) {
-      stop.check();
+      if (pause.made()) return false;
       Vec<D> point;
       for (int axis = 0; axis < D; ++axis) {
         point[axis] = low(axis) + random.uniform() * (model_.box[axis] - 2.0 * low(axis));
       }
       place_at(point);
     }
+    return true;
   }
 
-  bool place_first(const Vec<D>& point) {
+  bool place_first(const Vec<D>& point) override {
     for (int axis = 0; axis < D; ++axis) {
       if (!(point[axis] >= low(axis) && point[axis] < model_.box[axis] - low(axis))) return false;
     }
     return place_at(point);
   }
 
-  std::vector<Vec<D>>& placed() { return placed_; }
+  std::vector<Vec<D>>& placed() override { return placed_; }
 
  private:
   static Model<D> empty(const Room<D>& room) {
@@ -242,50 +265,57 @@ class SparseInsertion {
   std::vector<Vec<D>> placed_;
 };
 
-// Uses as many positions of `wanted` as fit, then random positions. Empty if a particle finds no
-// room.
-template <int D, class Places>
-std::vector<Vec<D>> filled(Places places, int count, Random& random,
-                           const std::vector<Vec<D>>& wanted, std::vector<std::size_t>& kept,
-                           const StopRequest& stop) {
-  for (std::size_t i = 0; i < wanted.size() && static_cast<int>(kept.size()) < count; ++i) {
-    if (places.place_first(wanted[i])) kept.push_back(i);
+template <int D>
+std::unique_ptr<typename RandomInsertion<D>::Work> work_in(const Room<D>& room, std::size_t count) {
+  constexpr double kSparse = 50.0;  // room per particle, in cubed (2D: squared) diameters
+  const double cube =
+      D == 2 ? room.diameter * room.diameter : room.diameter * room.diameter * room.diameter;
+  if (room.box.prod() > kSparse * cube * static_cast<double>(count)) {
+    return std::make_unique<SparseInsertion<D>>(room, count);
   }
-  places.place(static_cast<std::size_t>(count), random, stop);
-  if (static_cast<int>(places.placed().size()) < count) return {};
-  return std::move(places.placed());
+  return std::make_unique<Insertion<D>>(room);
 }
 
 }  // namespace
 
 template <int D>
-std::vector<Vec<D>> random_insertion(const Room<D>& room, int count, Random& random,
-                                     const StopRequest& stop) {
-  std::vector<std::size_t> none;
-  return random_insertion<D>(room, count, random, {}, none, stop);
+RandomInsertion<D>::RandomInsertion(const Room<D>& room, int count, Random& random)
+    : count_(static_cast<std::size_t>(count)), random_(random), work_(work_in(room, count_)) {}
+
+template <int D>
+RandomInsertion<D>::~RandomInsertion() = default;
+
+template <int D>
+bool RandomInsertion<D>::place_first(const Vec<D>& point) {
+  return work_->place_first(point);
 }
 
 template <int D>
-std::vector<Vec<D>> random_insertion(const Room<D>& room, int count, Random& random,
-                                     const std::vector<Vec<D>>& wanted,
-                                     std::vector<std::size_t>& kept, const StopRequest& stop) {
-  constexpr double kSparse = 50.0;  // room per particle, in cubed (2D: squared) diameters
-  const double cube =
-      D == 2 ? room.diameter * room.diameter : room.diameter * room.diameter * room.diameter;
-  if (room.box.prod() > kSparse * cube * count) {
-    const auto places = static_cast<std::size_t>(count);
-    return filled<D>(SparseInsertion<D>(room, places), count, random, wanted, kept, stop);
-  }
-  return filled<D>(Insertion<D>(room), count, random, wanted, kept, stop);
+bool RandomInsertion<D>::advance(const StopRequest& pause) {
+  return work_->place(count_, random_, pause);
 }
 
-template std::vector<Vec<2>> random_insertion(const Room<2>&, int, Random&, const StopRequest&);
-template std::vector<Vec<3>> random_insertion(const Room<3>&, int, Random&, const StopRequest&);
-template std::vector<Vec<2>> random_insertion(const Room<2>&, int, Random&,
-                                              const std::vector<Vec<2>>&, std::vector<std::size_t>&,
-                                              const StopRequest&);
-template std::vector<Vec<3>> random_insertion(const Room<3>&, int, Random&,
-                                              const std::vector<Vec<3>>&, std::vector<std::size_t>&,
-                                              const StopRequest&);
+template <int D>
+std::size_t RandomInsertion<D>::placed() const {
+  return work_->placed().size();
+}
+
+template <int D>
+std::vector<Vec<D>> RandomInsertion<D>::take() {
+  if (placed() < count_) return {};
+  return std::move(work_->placed());
+}
+
+template <int D>
+std::vector<Vec<D>> random_insertion(const Room<D>& room, int count, Random& random) {
+  RandomInsertion<D> insertion(room, count, random);
+  insertion.advance();
+  return insertion.take();
+}
+
+template class RandomInsertion<2>;
+template class RandomInsertion<3>;
+template std::vector<Vec<2>> random_insertion(const Room<2>&, int, Random&);
+template std::vector<Vec<3>> random_insertion(const Room<3>&, int, Random&);
 
 }  // namespace clatter

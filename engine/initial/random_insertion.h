@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "engine/physics/lattice.h"
@@ -9,18 +10,38 @@
 
 namespace clatter {
 
-/// Random sequential insertion of `count` centres, each uniform over the free room. Empty if a
-/// particle finds no room. The process jams at a packing fraction of 0.547 for disks (Feder 1980)
-/// and 0.384 for spheres (Torquato, Uche & Stillinger 2006). Throws Interrupted.
+/// Random sequential insertion of centres, each uniform over the free room, in parts. The process
+/// jams at a packing fraction of 0.547 for disks (Feder 1980) and 0.384 for spheres (Torquato, Uche
+/// & Stillinger 2006).
 template <int D>
-std::vector<Vec<D>> random_insertion(const Room<D>& room, int count, Random& random,
-                                     const StopRequest& stop = {});
+class RandomInsertion {
+ public:
+  /// Begins the insertion of `count` centres. `random` must outlive the insertion.
+  RandomInsertion(const Room<D>& room, int count, Random& random);
+  RandomInsertion(const RandomInsertion&) = delete;
+  RandomInsertion& operator=(const RandomInsertion&) = delete;
+  ~RandomInsertion();
 
-/// The same, after the insertion of those positions of `wanted`, in order, that fit without
-/// overlap. `kept` gets their indices.
+  /// Inserts this centre if it has room, and returns whether it has. To be called before advance().
+  bool place_first(const Vec<D>& point);
+  /// Continues until all centres have their places, or one finds no room. Returns false at a
+  /// request to pause; the pauses do not change the result.
+  bool advance(const StopRequest& pause = {});
+  /// Number of centres so far.
+  std::size_t placed() const;
+  /// [count] all centres; empty if one finds no room.
+  std::vector<Vec<D>> take();
+
+  struct Work;  ///< the insertion in a sparse or a dense room
+
+ private:
+  std::size_t count_;
+  Random& random_;
+  std::unique_ptr<Work> work_;
+};
+
+/// The same at once: [count] centres; empty if one finds no room.
 template <int D>
-std::vector<Vec<D>> random_insertion(const Room<D>& room, int count, Random& random,
-                                     const std::vector<Vec<D>>& wanted,
-                                     std::vector<std::size_t>& kept, const StopRequest& stop = {});
+std::vector<Vec<D>> random_insertion(const Room<D>& room, int count, Random& random);
 
 }  // namespace clatter

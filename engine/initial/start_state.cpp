@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <utility>
 
+#include "engine/dimension.h"
 #include "engine/dynamics/simulation.h"
 #include "engine/initial/random_insertion.h"
 #include "engine/physics/lattice.h"
@@ -129,52 +131,66 @@ static bool is_fluid(const Model<3>& model, const State<3>& state,
   return squares > static_cast<double>(sites.size()) * model.diameter * model.diameter;
 }
 
-// Melts a lattice by elastic motion, until is_fluid() or for at most kRounds rounds.
+namespace {
+
+// The melting of a lattice by elastic motion, until is_fluid() or for at most kRounds rounds.
 template <int D>
-static std::vector<Vec<D>> melt(const Room<D>& room, const std::vector<Vec<D>>& sites,
-                                std::uint64_t seed, const StopRequest& stop) {
-  constexpr int kRounds = 10;
-  constexpr std::uint64_t kCollisionsPerRound = 20;  // per particle
+class Melting {
+ public:
+  Melting(const Room<D>& room, std::vector<Vec<D>> sites, std::uint64_t seed,
+          const StopRequest& stop)
+      : model_(elastic(room)),
+        sites_(std::move(sites)),
+        gas_(model_, {sites_, gaussian_velocities<D>(sites_.size(), 1.0, ~seed, stop)}, 0.0, stop) {
+  }
+
+  // Returns false at a request to pause.
+  bool advance(const StopRequest& pause) {
+    for (; round_ <= kRounds; ++round_) {
+      const std::uint64_t most = collisions_after(round_);
+      const bool arrived = gas_.run_until(kLongestRound * round_, most, kNoLimit, pause);
+      if (!arrived && gas_.counts().collisions() < most) return false;
+      if (is_fluid(model_, gas_.state(), sites_)) break;
+    }
+    return true;
+  }
+
+  // Most lattices melt in the first round.
+  double progress() const {
+    return std::min(1.0, static_cast<double>(gas_.counts().collisions()) /
+                             static_cast<double>(collisions_after(1)));
+  }
+
+  std::vector<Vec<D>> positions() const { return gas_.positions(); }
+
+ private:
+  static constexpr int kRounds = 10;
+  static constexpr std::uint64_t kCollisionsPerRound = 20;  // per particle
   // Longest time of a round. At T = 1 in a dense gas a round takes less than 10; a lone particle
   // never collides.
-  constexpr double kLongestRound = 100.0;
-  Model<D> elastic;
-  elastic.box = room.box;
-  elastic.diameter = room.diameter;
-  for (int side = 0; side < 2 * D; ++side) {
-    if (room.walled[side / 2]) elastic.walls[side] = Wall{};
-  }
-  Simulation<D> simulation(elastic, {sites, gaussian_velocities<D>(sites.size(), 1.0, ~seed, stop)},
-                           0.0, stop);
-  for (int round = 1; round <= kRounds; ++round) {
-    simulation.run_until(kLongestRound * round, kCollisionsPerRound * round * sites.size() / 2,
-                         kNoLimit, stop);
-    stop.check();
-    if (is_fluid(elastic, simulation.state(), sites)) break;
-  }
-  return simulation.positions();
-}
+  static constexpr double kLongestRound = 100.0;
 
-template <int D>
-static std::vector<Vec<D>> random_positions(const Room<D>& room, int count, std::uint64_t seed,
-                                            const StopRequest& stop) {
-  Random random(seed, Stream::Placement, 0, 0);
-  const double fraction = packing_fraction(D, count / room.box.prod());
-  if (fraction <= kInsertionFraction<D>) {
-    std::vector<Vec<D>> placed = random_insertion(room, count, random, stop);
-    if (static_cast<int>(placed.size()) == count) return placed;
+  static Model<D> elastic(const Room<D>& room) {
+    Model<D> model;
+    model.box = room.box;
+    model.diameter = room.diameter;
+    for (int side = 0; side < 2 * D; ++side) {
+      if (room.walled[side / 2]) model.walls[side] = Wall{};
+    }
+    return model;
   }
-  std::vector<Vec<D>> sites = primitive_lattice(room, count);
-  const bool primitive = !sites.empty();
-  if (!primitive) sites = face_centred_lattice(room, count);
-  choose<D>(sites, static_cast<std::size_t>(count), random);
-  // A square lattice fits at every density of the fluid of disks, except in narrow rooms; there
-  // disks stay on their sites. A cubic lattice of spheres often does not fit, because it fills at
-  // most 0.52.
-  const bool melts = primitive || D == 3;
-  if (!melts || fraction > kFluidFraction<D>) return sites;
-  return melt(room, sites, seed, stop);
-}
+
+  std::uint64_t collisions_after(int round) const {
+    return kCollisionsPerRound * static_cast<std::uint64_t>(round) * sites_.size() / 2;
+  }
+
+  Model<D> model_;
+  std::vector<Vec<D>> sites_;
+  Simulation<D> gas_;
+  int round_ = 1;
+};
+
+}  // namespace
 
 template <int D>
 static std::vector<Vec<D>> lattice_positions(const Room<D>& room, int count, std::uint64_t seed) {
@@ -200,25 +216,142 @@ static void number_by_rows(std::vector<Vec<D>>& positions) {
   std::stable_sort(positions.begin(), positions.end(), comes_first);
 }
 
+struct StartMaker::Work {
+  virtual ~Work() = default;
+  virtual bool advance(const StopRequest& pause) = 0;
+  virtual double progress() const = 0;
+  virtual AnyState take() = 0;
+};
+
+namespace {
+
+template <int D>
+class StartWork : public StartMaker::Work {
+ public:
+  StartWork(const Scene& scene, std::uint64_t seed, const StopRequest& stop)
+      : scene_(scene),
+        seed_(seed),
+        stop_(stop),
+        room_(scene.start_room<D>()),
+        random_(seed, Stream::Placement, 0, 0) {
+    const Start& start = scene_.particles.start;
+    if (start.layout == Layout::File) return;
+    if (start.layout != Layout::Random) {
+      positions_ = lattice_positions(room_, count(), seed_);
+    } else if (fraction() <= kInsertionFraction<D>) {
+      insertion_.emplace(room_, count(), random_);
+    }
+  }
+
+  bool advance(const StopRequest& pause) override {
+    if (insertion_) {
+      if (!insertion_->advance(pause)) return false;
+      positions_ = insertion_->take();
+      insertion_.reset();
+      return_unused_memory();
+    }
+    if (is_complete()) return true;
+    if (sites_.empty()) {
+      choose_sites();
+      if (is_complete()) return true;
+      if (pause.made()) return false;
+    }
+    if (!melting_) {
+      melting_.emplace(room_, sites_, seed_, stop_);
+      if (pause.made()) return false;
+    }
+    if (!melting_->advance(pause)) return false;
+    positions_ = melting_->positions();
+    melting_.reset();
+    return true;
+  }
+
+  double progress() const override {
+    if (insertion_) {
+      return static_cast<double>(insertion_->placed()) / static_cast<double>(count());
+    }
+    if (melting_) return melting_->progress();
+    return is_complete() ? 1.0 : 0.0;
+  }
+
+  AnyState take() override {
+    const Start& start = scene_.particles.start;
+    if (start.layout == Layout::File) return std::get<State<D>>(start.state);
+    State<D> state;
+    state.positions = std::move(positions_);
+    number_by_rows<D>(state.positions);
+    const Vec<D> corner = scene_.clear_corner();
+    for (Vec<D>& position : state.positions) position += corner;
+    state.velocities =
+        gaussian_velocities<D>(state.positions.size(), start.temperature, seed_, stop_);
+    if (scene_.spins()) {
+      state.spins = gaussian_spins<D>(state.positions.size(), start.spin_temperature,
+                                      scene_.particles.inertia, seed_, stop_);
+    }
+    return state;
+  }
+
+ private:
+  int count() const { return scene_.particles.count; }
+  double fraction() const { return packing_fraction(D, count() / room_.box.prod()); }
+
+  bool is_complete() const {
+    return scene_.particles.start.layout == Layout::File ||
+           static_cast<int>(positions_.size()) == count();
+  }
+
+  // Chooses sites of a lattice, which are the positions if it does not melt.
+  void choose_sites() {
+    sites_ = primitive_lattice(room_, count());
+    const bool primitive = !sites_.empty();
+    if (!primitive) sites_ = face_centred_lattice(room_, count());
+    choose<D>(sites_, static_cast<std::size_t>(count()), random_);
+    // A square lattice fits at every density of the fluid of disks, except in narrow rooms; there
+    // disks stay on their sites. A cubic lattice of spheres often does not fit, because it fills at
+    // most 0.52.
+    const bool melts = primitive || D == 3;
+    if (!melts || fraction() > kFluidFraction<D>) positions_ = std::move(sites_);
+  }
+
+  Scene scene_;
+  std::uint64_t seed_;
+  StopRequest stop_;
+  Room<D> room_;
+  Random random_;
+  std::optional<RandomInsertion<D>> insertion_;  // the present part of the work, or none
+  std::optional<Melting<D>> melting_;            // the same
+  std::vector<Vec<D>> sites_;                    // of the lattice that melts
+  std::vector<Vec<D>> positions_;                // of the complete work
+};
+
+}  // namespace
+
+StartMaker::StartMaker(const Scene& scene, std::uint64_t seed, const StopRequest& stop)
+    : work_(with_dimension(scene.dimension(), [&](auto dimension) -> std::unique_ptr<Work> {
+        return std::make_unique<StartWork<dimension()>>(scene, seed, stop);
+      })) {}
+
+StartMaker::StartMaker(StartMaker&&) noexcept = default;
+StartMaker& StartMaker::operator=(StartMaker&&) noexcept = default;
+StartMaker::~StartMaker() = default;
+
+bool StartMaker::advance(const StopRequest& pause) {
+  return work_->advance(pause);
+}
+
+double StartMaker::progress() const {
+  return work_->progress();
+}
+
+AnyState StartMaker::take() {
+  return work_->take();
+}
+
 template <int D>
 State<D> start_state(const Scene& scene, std::uint64_t seed, const StopRequest& stop) {
-  const Start& start = scene.particles.start;
-  if (start.layout == Layout::File) return std::get<State<D>>(start.state);
-  const Room<D> room = scene.start_room<D>();
-  const int count = scene.particles.count;
-  State<D> state;
-  state.positions = start.layout == Layout::Random ? random_positions(room, count, seed, stop)
-                                                   : lattice_positions(room, count, seed);
-  return_unused_memory();  // of random insertion
-  number_by_rows<D>(state.positions);
-  const Vec<D> corner = scene.clear_corner();
-  for (Vec<D>& position : state.positions) position += corner;
-  state.velocities = gaussian_velocities<D>(state.positions.size(), start.temperature, seed, stop);
-  if (scene.spins()) {
-    state.spins = gaussian_spins<D>(state.positions.size(), start.spin_temperature,
-                                    scene.particles.inertia, seed, stop);
-  }
-  return state;
+  StartMaker maker(scene, seed, stop);
+  if (!maker.advance(stop)) throw Interrupted();
+  return std::get<State<D>>(maker.take());
 }
 
 template State<2> start_state(const Scene&, std::uint64_t, const StopRequest&);

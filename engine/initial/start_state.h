@@ -1,12 +1,37 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "engine/dynamics/model.h"
 #include "engine/scene/scene.h"
 #include "engine/stop_request.h"
 
 namespace clatter {
+
+/// The state of a scene at time 0, made in parts: see start_state().
+class StartMaker {
+ public:
+  /// Begins the state of a scene and a seed. Throws Interrupted, also later, after a `stop`
+  /// request.
+  StartMaker(const Scene& scene, std::uint64_t seed, const StopRequest& stop = {});
+  StartMaker(StartMaker&&) noexcept;
+  StartMaker& operator=(StartMaker&&) noexcept;
+  ~StartMaker();
+
+  /// Continues until all particles have their places. Returns false at a request to pause; the
+  /// pauses do not change the state.
+  bool advance(const StopRequest& pause = {});
+  /// Estimate of the completed part, 0..1.
+  double progress() const;
+  /// The state. Requires that advance() has returned true.
+  AnyState take();
+
+  struct Work;  ///< the parts that depend on the dimension
+
+ private:
+  std::unique_ptr<Work> work_;
+};
 
 /// The state of a scene at time 0, a pure function of scene and seed. No particles overlap.
 /// Velocities are Gaussian with mean 0 (N >= 2) and exactly the start temperature. Spins, if the

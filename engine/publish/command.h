@@ -83,12 +83,16 @@ struct Open {
   VecX shift = {};  ///< displacement of the kept particles; empty: none
 };
 
+/// Abandons the scene that is being opened, and the commands after its Open. The former gas
+/// remains.
+struct CancelOpen {};
+
 }  // namespace command
 
 using Command =
     std::variant<command::Play, command::PlayBackwards, command::Step, command::StepCollision,
                  command::Jump, command::StepBack, command::ExchangeFutures, command::MoveChange,
                  command::Loop, command::SetSpeed, command::SetLaws, command::Show,
-                 command::ShowProfile, command::Pick, command::Open>;
+                 command::ShowProfile, command::Pick, command::Open, command::CancelOpen>;
 
 }  // namespace clatter

@@ -61,6 +61,7 @@ struct Frame {
   std::shared_ptr<const std::vector<ResultTable>> observables;
   std::optional<ParticleCollision> last_collision;  ///< of the picked particle, since it was picked
   std::optional<ParticleCollision> next_collision;  ///< of the picked particle, if found
+  std::optional<double> opening;  ///< completed part of the scene being opened, 0..1; absent: none
   std::uint64_t seed = 1;
   bool plays = false;
   bool backwards = false;          ///< whether it plays backwards

@@ -24,6 +24,12 @@ ScheduledRun<D>::ScheduledRun(const Scene& scene, std::uint64_t seed, const Stop
     : schedule_(scene), seed_(seed), simulation_(simulation_of<D>(scene, seed, stop)) {}
 
 template <int D>
+ScheduledRun<D>::ScheduledRun(const Scene& scene, std::uint64_t seed, State<D> start)
+    : schedule_(scene),
+      seed_(seed),
+      simulation_(std::make_unique<Simulation<D>>(model_of<D>(scene, seed), std::move(start))) {}
+
+template <int D>
 ScheduledRun<D>::ScheduledRun(const Scene& scene, std::uint64_t seed, const RunState<D>& saved,
                               const StopRequest& stop)
     : schedule_(scene), seed_(seed) {

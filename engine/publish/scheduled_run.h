@@ -30,6 +30,8 @@ class ScheduledRun {
  public:
   /// Starts a run as the scene describes. Throws Interrupted.
   ScheduledRun(const Scene& scene, std::uint64_t seed, const StopRequest& stop = {});
+  /// Starts a run as the scene describes, from its start state made before.
+  ScheduledRun(const Scene& scene, std::uint64_t seed, State<D> start);
   /// Continues a saved run. The scene's changes up to its time are in force. Throws Interrupted.
   ScheduledRun(const Scene& scene, std::uint64_t seed, const RunState<D>& saved,
                const StopRequest& stop = {});

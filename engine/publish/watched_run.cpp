@@ -4,8 +4,9 @@
 #include <limits>
 #include <utility>
 
-#include "engine/dimension.h"
+#include "engine/dynamics/memory.h"
 #include "engine/error.h"
+#include "engine/initial/start_state.h"
 #include "engine/measure/totals.h"
 #include "engine/publish/live_observables.h"
 #include "engine/publish/live_profile.h"
@@ -20,7 +21,7 @@ namespace {
 template <int D>
 class RunOf : public WatchedRun {
  public:
-  RunOf(const Scene& scene, std::uint64_t seed, std::size_t record_bytes);
+  RunOf(const Scene& scene, std::uint64_t seed, State<D> start, std::size_t record_bytes);
   RunOf(const RunOf&) = delete;
   RunOf& operator=(const RunOf&) = delete;
 
@@ -118,8 +119,8 @@ class RunOf : public WatchedRun {
 };
 
 template <int D>
-RunOf<D>::RunOf(const Scene& scene, std::uint64_t seed, std::size_t record_bytes)
-    : run_(scene, seed),
+RunOf<D>::RunOf(const Scene& scene, std::uint64_t seed, State<D> start, std::size_t record_bytes)
+    : run_(scene, seed, std::move(start)),
       started_(std::make_shared<const Scene>(scene)),
       record_(record_bytes),
       record_bytes_(record_bytes) {
@@ -453,11 +454,21 @@ void RunOf<D>::tell(Frame& frame, bool halted) {
 
 }  // namespace
 
+std::unique_ptr<WatchedRun> watched_run(const Scene& scene, std::uint64_t seed, AnyState start,
+                                        std::size_t record_bytes) {
+  return std::visit(
+      [&]<int D>(State<D>& state) -> std::unique_ptr<WatchedRun> {
+        return std::make_unique<RunOf<D>>(scene, seed, std::move(state), record_bytes);
+      },
+      start);
+}
+
 std::unique_ptr<WatchedRun> watched_run(const Scene& scene, std::uint64_t seed,
                                         std::size_t record_bytes) {
-  return with_dimension(scene.dimension(), [&](auto dimension) -> std::unique_ptr<WatchedRun> {
-    return std::make_unique<RunOf<dimension()>>(scene, seed, record_bytes);
-  });
+  require_memory(scene);
+  StartMaker maker(scene, seed);
+  maker.advance();
+  return watched_run(scene, seed, maker.take(), record_bytes);
 }
 
 }  // namespace clatter

@@ -76,5 +76,8 @@ class WatchedRun {
 /// see RunRecord. Throws UserError if the machine has not enough memory.
 std::unique_ptr<WatchedRun> watched_run(const Scene& scene, std::uint64_t seed,
                                         std::size_t record_bytes = kRecordBytes);
+/// The same from the start state of the scene, made before by a StartMaker.
+std::unique_ptr<WatchedRun> watched_run(const Scene& scene, std::uint64_t seed, AnyState start,
+                                        std::size_t record_bytes = kRecordBytes);
 
 }  // namespace clatter

@@ -1,7 +1,9 @@
 #include "engine/publish/worker.h"
 
 #include <algorithm>
+#include <deque>
 #include <exception>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -9,6 +11,7 @@
 #include "engine/error.h"
 #include "engine/initial/adapt_to_scene.h"
 #include "engine/physics/temperature.h"
+#include "engine/publish/opening_run.h"
 #include "engine/publish/pace.h"
 #include "engine/publish/rewinder.h"
 #include "engine/publish/watched_run.h"
@@ -47,7 +50,9 @@ class EngineWork {
   void run() {
     while (!commands_.closed()) {
       obey_all();
-      if (!moves()) {
+      if (opening_) {
+        open_on();
+      } else if (!moves()) {
         commands_.wait();
       } else if (backwards_) {
         begin_rewind();
@@ -65,6 +70,7 @@ class EngineWork {
   // Does the work for a frame after the real time `elapsed` since the last one, until about `due`.
   void run_slice(Clock::duration elapsed, Clock::time_point due) {
     obey_all();
+    if (opening_) return open_on();
     if (!moves()) return;
     if (backwards_) {
       begin_rewind();
@@ -79,20 +85,45 @@ class EngineWork {
   }
 
   bool moves() const { return watched_ && (plays_ || step_to_ || to_collision_); }
+  bool opens() const { return opening_.has_value(); }
 
  private:
+  // A scene that is being opened.
+  struct Opening {
+    command::Open asked;
+    OpeningRun run;
+  };
+
   void obey_all() {
-    const std::vector<Command> asked = commands_.take();
-    for (std::size_t i = 0; i < asked.size() && !commands_.closed(); ++i) {
-      if (i + 1 == asked.size() || !supersedes(asked[i + 1], asked[i])) {
+    std::vector<Command> asked = commands_.take();
+    const bool any = !asked.empty();
+    std::ranges::move(asked, std::back_inserter(waiting_));
+    if (opening_) abandon();
+    while (!opening_ && !waiting_.empty() && !commands_.closed()) {
+      const Command next = std::move(waiting_.front());
+      waiting_.pop_front();
+      if (waiting_.empty() || !supersedes(waiting_.front(), next)) {
         attempt([&] {
           end_rewind();
-          std::visit([this](const auto& command) { obey(command); }, asked[i]);
+          std::visit([this](const auto& command) { obey(command); }, next);
         });
       }
-      ++handled_;
+      if (!opening_) ++handled_;
     }
-    if (!asked.empty()) publish();
+    if (any) publish();
+  }
+
+  // Another scene, or CancelOpen, ends the opening and the commands between.
+  void abandon() {
+    const auto ends = [](const Command& command) {
+      const auto* open = std::get_if<command::Open>(&command);
+      return (open && !open->keeps_gas) || std::holds_alternative<command::CancelOpen>(command);
+    };
+    const auto last = std::ranges::find_if(waiting_.rbegin(), waiting_.rend(), ends).base();
+    if (last == waiting_.begin()) return;
+    opening_.reset();
+    handled_ += static_cast<std::uint64_t>(last - waiting_.begin());
+    waiting_.erase(waiting_.begin(), last - 1);
   }
 
   double time() { return watched_->time(); }
@@ -186,9 +217,38 @@ class EngineWork {
           [&](auto&& state) { start_from(std::forward<decltype(state)>(state), asked, scene); },
           watched_->state());
     }
-    auto opened = watched_run(scene, asked.seed, record_bytes_);
+    opening_.emplace(Opening{asked, OpeningRun(scene, asked.seed, record_bytes_)});
+    if (work_on_opening()) finish_opening();
+  }
+  void obey(const command::CancelOpen&) {}
+
+  // Continues the opening for a slice of time. Returns whether it is complete.
+  bool work_on_opening() {
+    constexpr std::chrono::milliseconds kSlice{50};
+    const auto due = Clock::now() + kSlice;
+    bool complete = false;
+    const bool possible = attempt([&] {
+      complete = opening_->run.advance([&] { return Clock::now() >= due || commands_.pending(); });
+    });
+    if (!possible) opening_.reset();
+    return complete;
+  }
+
+  // A slice of the opening, after which the other commands follow.
+  void open_on() {
+    if (work_on_opening()) attempt([this] { finish_opening(); });
+    if (!opening_) {
+      ++handled_;
+      obey_all();
+    }
+    publish();
+  }
+
+  void finish_opening() {
+    Opening opening = *std::exchange(opening_, std::nullopt);
+    const command::Open& asked = opening.asked;
     halt();
-    watched_ = std::move(opened);
+    watched_ = opening.run.take();
     watched_->show_profile(profiled_.what, profiled_.axis);
     pace_.set_speed(asked.scene.view.speed);
     plays_ = asked.plays;
@@ -340,6 +400,8 @@ class EngineWork {
   // Sends the next frame, with the state of the engine.
   void send_frame() {
     Frame& frame = frames_.back();
+    frame.opening.reset();
+    if (opening_) frame.opening = opening_->run.progress();
     frame.run = runs_;
     frame.handled = handled_;
     frame.plays = plays_;
@@ -383,6 +445,8 @@ class EngineWork {
   double frame_seconds_;
   Pace pace_;
   std::unique_ptr<WatchedRun> watched_;
+  std::optional<Opening> opening_;
+  std::deque<Command> waiting_;  // commands after the scene that is being opened
   command::ShowProfile profiled_ = {.what = Profiled::Nothing};
   bool plays_ = false;
   bool backwards_ = false;            // plays_ backwards
@@ -422,7 +486,7 @@ void SlicedWorker::work(std::chrono::milliseconds budget) {
 }
 
 bool SlicedWorker::busy() {
-  return commands_.pending() || work_->moves();
+  return commands_.pending() || work_->moves() || work_->opens();
 }
 
 Worker::Worker(double frames_per_second, std::function<void()> on_publish)

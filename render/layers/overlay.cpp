@@ -35,9 +35,9 @@ struct Page {
          box_high = {};  // upper left and lower right corner of the box with its walls, pixels
 };
 
-float unit_for(Size size, double letters) {
+float unit_for(Size size, const OverlayText& text) {
   const double usual = std::max(12.0, std::min(size.width, size.height) / 40.0);
-  return static_cast<float>(std::round(letters * usual));
+  return static_cast<float>(std::round(std::max(text.letters * usual, text.least)));
 }
 
 Page arrange(Arrangement arrangement, const Fonts& fonts, const ThemeColours& theme, Size size,
@@ -325,7 +325,7 @@ Overlay::Overlay(const Gl& gl) : gui_(gl), context_(make_gui_context()) {}
 
 Fonts Overlay::fonts_for(Size size, const OverlayText& text) {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
-  const float unit = unit_for(size, text.letters);
+  const float unit = unit_for(size, text);
   if (unit == loaded_size_ && text.title == loaded_title_) return loaded_fonts(atlas);
   atlas.Clear();
   loaded_size_ = unit;

@@ -17,6 +17,7 @@ struct OverlayText {
   std::string caption;   ///< empty: none
   double card = 0.0;     ///< opacity of a title card over the whole picture, 0..1
   double letters = 1.0;  ///< scale of all text
+  double least = 0.0;    ///< smallest size of the text, pixels
 };
 
 /// Opacity of a title card `time` seconds after the beginning of a film. The card lasts `length`

@@ -29,7 +29,7 @@ PanelDriver::PanelDriver(const Scene& scene, Panel panel)
   io.SetClipboardTextFn = [](void* text, const char* written) {
     *static_cast<std::string*>(text) = written;
   };
-  apply_style(kTextSize, kDarkTheme);
+  apply_style(kTextSize, 0.0f, kDarkTheme);
   session_.open(scene, 1, false);
   for (int picture = 0; picture < 3; ++picture) draw();
 }

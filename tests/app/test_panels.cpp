@@ -268,6 +268,38 @@ TEST_CASE("Panels: a curve of theory has its meaning beside the mouse") {
   CHECK(says(text_of(driver), "Holds somewhere"));
 }
 
+TEST_CASE("Panels: chosen controls are drawn alone, and those that are missing are named") {
+  std::vector<std::pair<std::string, std::string>> missing;
+  PanelDriver driver(uneven_disks(), [&](Session& session, Controls& controls) {
+    controls.choose({"walls.bottom.temperature", "particles.restitution", "box.size.y",
+                     "walls.left.temperature", "particles.restitutoin"});
+    play_row(session, controls);
+    all_panels(session, controls);
+    missing = controls.take_missing();
+  });
+  check_lines(driver.lines(), {"Restitution α 0.810", "{ 0.810 }", "Height Ly 23.0 a", "{ 23.0 }",
+                               "Temperature T_w 2.500 m a²/t²", "{ 2.500 }"});
+  REQUIRE(missing.size() == 2);
+  CHECK(missing[0].first == "walls.left.temperature");
+  CHECK(missing[1] ==
+        std::pair<std::string, std::string>("particles.restitutoin", "particles.restitution"));
+}
+
+TEST_CASE("Panels: the top bar of a narrow window keeps the title, play and restart") {
+  Scene scene = uneven_disks();
+  scene.title = "Uneven";
+  PanelVisibility shown{.narrow = true};
+  PanelDriver driver(
+      scene, [&](Session& session, Controls& controls) { top_bar(session, controls, shown); });
+  CHECK(says(text_of(driver), "Uneven"));
+  CHECK_FALSE(says(text_of(driver), "Plots"));
+  tick(driver, "play");
+  driver.wait_for([](const Frame& frame) { return frame.plays; });
+  tick(driver, "gallery");
+  driver.lines();
+  CHECK(shown.gallery);
+}
+
 TEST_CASE("Panels: the top bar shows the time and sets the speed in steps of the root of 2") {
   Scene scene = uneven_disks();
   scene.title = "Uneven";

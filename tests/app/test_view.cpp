@@ -454,6 +454,30 @@ TEST_CASE("Window: the lesson closes, and lecture mode has the colours for a pro
   CHECK(corner_becomes(driver, {0x10, 0x14, 0x18}));
 }
 
+TEST_CASE("Window: a narrow one has one sheet at a time below the gas") {
+  const GuiDriver driver("", "480x800");
+  const auto viewport = [&](std::size_t told) { return place_of(driver, "viewport", told); };
+  const json whole = viewport(0);
+  CHECK(whole[2] == 480.0);
+  std::size_t told = driver.told();
+  driver.click("sheet.gas");
+  const json half = viewport(told);
+  CHECK(half[2] == 480.0);
+  CHECK(half[3] < 0.6 * whole[3].get<double>());
+  told = driver.told();
+  driver.click("rough");
+  driver.wait_for("set", told);
+  told = driver.told();
+  driver.click("sheet.close");
+  CHECK(viewport(told) == whole);
+  told = driver.told();
+  driver.key("p");
+  CHECK(viewport(told) == half);
+  told = driver.told();
+  driver.key("Escape");
+  CHECK(viewport(told) == whole);
+}
+
 TEST_CASE("Window: trails appear with their slider, vanish with undo, and are saved") {
   // Few disks on a dark background: most of the light comes from trails, some diameters long.
   const GuiDriver driver(

@@ -10,10 +10,16 @@ import {extname, join, normalize} from 'node:path';
 const kinds = {'.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css',
                '.wasm': 'application/wasm'};
 
-/// Serves the files of a folder. Resolves to {address, close}.
-export function serve(folder) {
+/// Serves the files of a folder, and pages given as text by their paths. Resolves to
+/// {address, close}.
+export function serve(folder, pages = {}) {
   const server = createServer((request, response) => {
     const path = normalize(decodeURIComponent(new URL(request.url, 'http://x').pathname));
+    if (path in pages) {
+      response.writeHead(200, {'Content-Type': 'text/html'});
+      response.end(pages[path]);
+      return;
+    }
     const file = join(folder, path.endsWith('/') ? path + 'index.html' : path);
     try {
       const bytes = readFileSync(file);
@@ -77,12 +83,21 @@ export class Browser {
     return new Promise((resolve, reject) => this.answers.set(id, {resolve, reject}));
   }
 
-  /// The value of an expression in the page.
-  async value(expression) {
+  /// The value of an expression in the page, or in its iframe.
+  async value(expression, contextId = undefined) {
     const {result, exceptionDetails} = await this.send(
-        'Runtime.evaluate', {expression, returnByValue: true, awaitPromise: true});
+        'Runtime.evaluate', {expression, returnByValue: true, awaitPromise: true, contextId});
     if (exceptionDetails) throw new Error(exceptionDetails.exception?.description || expression);
     return result.value;
+  }
+
+  /// The context of the scripts in the page's iframe, for value().
+  async iframe() {
+    const {frameTree} = await this.send('Page.getFrameTree');
+    const {id} = frameTree.childFrames[0].frame;
+    return this.events.filter((event) => event.method === 'Runtime.executionContextCreated')
+        .map((event) => event.params.context).filter((context) => context.auxData.frameId === id)
+        .pop().id;
   }
 
   /// Opens an address and waits until `ready` holds in the page.

@@ -2,6 +2,10 @@
 // FOLDER has the page; CASE is a part of the names of the cases to run.
 
 import assert from 'node:assert/strict';
+import {spawnSync} from 'node:child_process';
+import {existsSync, mkdtempSync, rmSync, writeFileSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
 import {Browser, serve, sleep} from './browser.mjs';
 
 const [folder, chosen = ''] = process.argv.slice(2);
@@ -12,6 +16,18 @@ const test = (name, run) => cases.set(name, run);
 const kHash = '5ca4f7af577a3f59';
 
 let browser, server;
+
+const scratch_folder = mkdtempSync(join(tmpdir(), 'clatter-page-'));
+const scratch = (name) => join(scratch_folder, name);
+
+const has_ffmpeg = spawnSync('ffprobe', ['-version']).status === 0;
+
+// Runs a program, which must succeed.
+function execute(program, ...words) {
+  const outcome = spawnSync(program, words, {encoding: 'utf8'});
+  assert.equal(outcome.status, 0, `${program} ${words.join(' ')}: ${outcome.error || outcome.stderr}`);
+  return outcome;
+}
 
 // Opens a scene by the fragment of a link, with the script log.
 async function open(fragment, query = '') {
@@ -198,7 +214,356 @@ test('after loading the page uses no network', async () => {
   assert.deepEqual(requests, []);
 });
 
-server = await serve(folder);
+// ---- fingers ----
+
+const touch = (type, ...points) =>
+    browser.send('Input.dispatchTouchEvent',
+                 {type, touchPoints: points.map(([x, y], id) => ({x, y, id}))});
+
+// A page on a small telephone with two pixels of the device per pixel.
+async function as_telephone(run) {
+  await browser.resize(360, 740, 2, true);
+  await browser.send('Emulation.setTouchEmulationEnabled', {enabled: true, maxTouchPoints: 5});
+  try {
+    await run();
+  } finally {
+    await browser.send('Emulation.setTouchEmulationEnabled', {enabled: false});
+    await browser.resize(1280, 720);
+  }
+}
+
+async function finger_place(widget) {
+  const scale = await browser.value('devicePixelRatio');
+  return (await place_of(widget)).map((length) => length / scale);
+}
+
+// The place must stay for the time of a few pictures.
+async function settled_place(widget) {
+  for (let place = null;;) {
+    const next = await finger_place(widget);
+    if (place && place.join() === next.join()) return place;
+    place = next;
+    await sleep(300);
+  }
+}
+
+async function tap(widget) {
+  const [x, y, width, height] = await settled_place(widget);
+  const middle = [x + width / 2, y + height / 2];
+  await touch('touchStart', middle);
+  await sleep(100);
+  await touch('touchEnd');
+  await sleep(500);
+}
+
+// Moves fingers along straight lines, each [from, to].
+async function swipe(...lines) {
+  const steps = 10;
+  const at = (share) => lines.map(([from, to]) => from.map((x, k) => x + share * (to[k] - x)));
+  await touch('touchStart', ...at(0));
+  for (let step = 1; step <= steps; ++step) {
+    await sleep(60);
+    await touch('touchMove', ...at(step / steps));
+  }
+  await sleep(300);
+  await touch('touchEnd');
+  await sleep(500);
+}
+
+test('a telephone has one sheet at a time, with areas for fingers', () => as_telephone(async () => {
+  await open('vibrated', '&until=1');
+  const whole = await settled_place('viewport');
+  assert.ok(whole[2] === 360 && whole[3] > 600, `viewport ${whole}`);
+  for (const name of ['run', 'gas', 'view', 'record', 'plots', 'lesson']) {
+    const [x, y, width, height] = await finger_place(`sheet.${name}`);
+    assert.ok(x >= 0 && x + width <= 360 && y + height <= 740 && width >= 40 && height >= 40,
+              `${name}: ${width} x ${height} at ${x}, ${y}`);
+  }
+  await tap('sheet.gas');
+  const half = await settled_place('viewport');
+  assert.ok(half[3] < 0.6 * whole[3]);
+  await tap('sheet.plots');
+  assert.deepEqual(await settled_place('viewport'), half);
+  await tap('sheet.close');
+  assert.deepEqual(await settled_place('viewport'), whole);
+  await tap('sheet.gas');
+  const [x, y, width, height] = await settled_place('sheet.close');
+  await swipe([[x + width / 2, y + height / 2], [x + width / 2, y + height / 2 + 100]]);
+  assert.deepEqual(await settled_place('viewport'), whole);
+  assert.deepEqual(complaints(), []);
+}));
+
+test('a finger drags a slider along x, and scrolls the sheet along y', () => as_telephone(async () => {
+  await open('vibrated');
+  await tap('sheet.gas');
+  const before = await settled_place('particles.restitution');
+  const [x, y, width, height] = before;
+  await swipe([[x + 0.9 * width, y + height / 2], [x + 0.4 * width, y + height / 2]]);
+  await browser.until(`JSON.parse(log.filter((line) => line.includes('"event":"status"')).pop()).restitution < 0.7`);
+  const sets = (await events('set')).length;
+  await swipe([[x + 0.9 * width, y + height / 2], [x + 0.9 * width, y + height / 2 - 60]]);
+  const after = await settled_place('particles.restitution');
+  assert.ok(Math.abs(after[1] - before[1] + 60) < 25, `moved by ${after[1] - before[1]}`);
+  assert.equal((await events('set')).length, sets);
+}));
+
+test('two fingers move and zoom the view, and pick nothing', () => as_telephone(async () => {
+  await open('vibrated', '&until=0');
+  const wall = async () => settled_place('wall.left');
+  const [left, , , tall] = await wall();
+  await swipe([[160, 400], [200, 400]], [[200, 400], [240, 400]]);
+  const moved = await wall();
+  assert.ok(Math.abs(moved[0] - left - 40) < 3, `moved by ${moved[0] - left}`);
+  assert.ok(Math.abs(moved[3] - tall) < 2, `height ${tall} became ${moved[3]}`);
+  await swipe([[170, 350], [170, 330]], [[170, 370], [170, 390]]);
+  const zoomed = await wall();
+  const factor = zoomed[3] / moved[3];
+  assert.ok(Math.abs(factor - 3) < 0.4, `zoomed by ${factor}`);
+  assert.deepEqual(await events('pick'), []);
+}));
+
+test('one finger turns spheres', () => as_telephone(async () => {
+  await open('spheres_vibrated', '&until=0');
+  // A busy machine may draw the press and the motion in one picture, and then sees no drag.
+  for (let turn = 0; turn < 5 && !(await events('turn')).length; ++turn) {
+    await swipe([[180, 300], [240, 300]]);
+  }
+  assert.ok((await events('turn')).length);
+}));
+
+// ---- embedded ----
+
+test('an embedded gas has its chosen controls alone, in an iframe of another page', async () => {
+  const controls = 'play,particles.restitution,walls.left.drive_speed';
+  await browser.open(`${server.address}frame.html?embed&log&controls=${controls}#vibrated`,
+                     `document.querySelector('iframe').contentDocument.title.includes('Vibrated')`);
+  await sleep(1500);
+  const names = await browser.value(
+      `log.map((line) => JSON.parse(line)).filter((event) => event.event === 'widget')
+      .map((event) => event.name)`, await browser.iframe());
+  for (const name of controls.split(',')) assert.ok(names.includes(name), `no ${name}`);
+  for (const name of ['gallery', 'reset', 'particles.count', 'walls.right.drive_speed']) {
+    assert.ok(!names.includes(name), name);
+  }
+  assert.deepEqual(complaints(), []);
+});
+
+test('an unknown control of an embedded gas is named with a suggestion', async () => {
+  await open('vibrated', '&embed&controls=particles.restitutoin');
+  const {text} = await browser.until(`log.map((line) => JSON.parse(line)).filter((event) => event.event === 'message').pop()`);
+  assert.match(text, /restitutoin.*"particles.restitution"/s);
+});
+
+test('an embedded gas without controls has the picture of the program', async () => {
+  const program = ['release', 'ci'].map((build) => join(process.env.CLATTER_BUILD || '', build, 'clatter'))
+      .find(existsSync);
+  if (!program || !has_ffmpeg) return ' (skipped: needs a build of the program, and ffmpeg)';
+  await browser.resize(960, 720);
+  try {
+    await open('vibrated', '&embed&until=3');
+    await browser.until('log.some((line) => JSON.parse(line).time === 3)');
+    await sleep(1000);
+    writeFileSync(scratch('page.png'), await browser.picture());
+  } finally {
+    await browser.resize(1280, 720);
+  }
+  execute(program, 'render', 'vibrated', '--from', '3', '--size', '960x720', '--out', scratch('program.png'), '--overwrite');
+  const {stderr} = execute('ffmpeg', '-i', scratch('page.png'), '-i', scratch('program.png'),
+                           '-lavfi', 'ssim', '-f', 'null', '-');
+  const likeness = Number(/All:([\d.]+)/.exec(stderr)[1]);
+  console.log(`  SSIM ${likeness}`);
+  assert.ok(likeness >= 0.98, `SSIM ${likeness}`);
+});
+
+// ---- files ----
+
+// Keeps the next downloads in the page instead: saved has [name, Blob].
+const keep_downloads = () => browser.value(`void (globalThis.saved = [],
+    globalThis.blob = null, URL.createObjectURL = (made) => { blob = made; return '#'; },
+    HTMLAnchorElement.prototype.click = function () { saved.push([this.download, blob]); })`);
+
+async function saved_file() {
+  const name = await browser.until('saved[0]?.[0]');
+  const text = await browser.value(`new Promise((done) => {
+    const reader = new FileReader();
+    reader.onload = () => done(reader.result);
+    reader.readAsDataURL(saved[0][1]);
+  })`);
+  return [name, Buffer.from(text.split(',')[1], 'base64')];
+}
+
+test('a film shows the gas', async () => {
+  if (!has_ffmpeg) return ' (skipped: needs ffmpeg)';
+  await open('vibrated&view.speed=3');
+  await keep_downloads();
+  await scroll_to('film');
+  await click('film');
+  await sleep(4000);
+  await click('film');
+  const [name, bytes] = await saved_file();
+  assert.match(name, /^clatter-1\.(mp4|webm)$/);
+  writeFileSync(scratch(name), bytes);
+  const probe = execute('ffprobe', '-v', 'error', '-count_packets', '-select_streams', 'v', '-show_entries',
+                        'stream=codec_name,width,height,nb_read_packets', '-of', 'json', scratch(name));
+  const [stream] = JSON.parse(probe.stdout).streams;
+  const [, , width, height] = await place_of('viewport');
+  assert.ok(Math.abs(stream.width - width) <= 2 && Math.abs(stream.height - height) <= 2);
+  assert.ok(stream.nb_read_packets >= 10, `${stream.nb_read_packets} frames`);
+  const times = execute('ffprobe', '-v', 'error', '-select_streams', 'v', '-show_entries', 'packet=pts_time',
+                        '-of', 'csv=p=0', scratch(name)).stdout.split('\n').map(parseFloat).filter(isFinite);
+  const length = Math.max(...times) - Math.min(...times);
+  assert.ok(length > 1.5 && length < 30, `${length} s`);
+  execute('ffmpeg', '-v', 'error', '-y', '-sseof', '-1', '-i', scratch(name), '-frames:v', '1', scratch('film.png'));
+  const {stderr} = execute('ffmpeg', '-i', scratch('film.png'), '-vf', 'signalstats,metadata=print', '-f', 'null', '-');
+  const value = (key) => Number(new RegExp(`${key}=([\\d.]+)`).exec(stderr)[1]);
+  console.log(`  ${name}: ${stream.codec_name}, ${stream.nb_read_packets} frames in ${length} s, ${bytes.length} bytes`);
+  assert.ok(value('YMAX') - value('YMIN') > 100, 'the frame has no contrast');
+});
+
+// Drops a file on the page.
+const drop = (name, bytes) => browser.value(`(() => {
+  const bytes = Uint8Array.from(atob('${Buffer.from(bytes).toString('base64')}'), (c) => c.charCodeAt(0));
+  const data = new DataTransfer();
+  data.items.add(new File([bytes], '${name}'));
+  dispatchEvent(new DragEvent('drop', {dataTransfer: data, cancelable: true}));
+})()`);
+
+test('a dropped scene opens, and so does a dropped picture', async () => {
+  await open('cradle');
+  await drop('own.toml', 'title = "Own"\nbox.size = [12.0, 9.0]\nparticles.count = 17\n');
+  await browser.until(`JSON.parse(log.filter((line) => line.includes('"event":"status"')).pop()).particles === 17`);
+  assert.equal((await last('open')).title, 'Own');
+  await keep_downloads();
+  await scroll_to('screenshot');
+  await click('screenshot');
+  const [name, picture] = await saved_file();
+  assert.match(name, /\.png$/);
+  await open('cradle');
+  await drop(name, picture);
+  await browser.until(`JSON.parse(log.filter((line) => line.includes('"event":"status"')).pop()).particles === 17`);
+  assert.equal((await last('open')).title, 'Own');
+  await drop('wrong.toml', 'box.size = "wide"');
+  await browser.until(`log.some((line) => line.includes('"event":"message"'))`);
+  assert.match((await last('message')).text, /box.size/);
+});
+
+// ---- time ----
+
+test('a hidden page does not run', async () => {
+  await open('vibrated');
+  const {windowId} = await browser.send('Browser.getWindowForTarget');
+  const collisions = async () => (await last('status')).collisions;
+  await browser.send('Browser.setWindowBounds', {windowId, bounds: {windowState: 'minimized'}});
+  try {
+    await browser.until(`document.visibilityState === 'hidden'`);
+    await sleep(500);
+    const before = await collisions();
+    await sleep(2000);
+    assert.equal(await collisions(), before);
+  } finally {
+    await browser.send('Browser.setWindowBounds', {windowId, bounds: {windowState: 'normal'}});
+  }
+  const before = await collisions();
+  await browser.until(`JSON.parse(log.filter((line) => line.includes('"event":"status"')).pop()).collisions > ${before}`);
+});
+
+// ---- speed ----
+
+// Durations of the tasks of more than 50 ms from now on, in milliseconds.
+const watch_tasks = () => browser.value(`void (globalThis.tasks = [], new PerformanceObserver((list) => {
+  for (const entry of list.getEntries()) tasks.push(entry.duration);
+}).observe({entryTypes: ['longtask']}))`);
+
+// The least of several values, because other programs may use the machine.
+async function least(count, measure) {
+  const values = [];
+  for (let turn = 0; turn < count; ++turn) values.push(await measure());
+  return Math.min(...values);
+}
+
+test('the first gas moves soon after the files have arrived', async () => {
+  const milliseconds = await least(3, async () => {
+    await browser.open(`${server.address}?log#vibrated`,
+                       `log.some((line) => { const e = JSON.parse(line); return e.event === 'status' && e.time > 0; })`);
+    return browser.value(`performance.now() - Math.max(
+        ...performance.getEntriesByType('resource').map((entry) => entry.responseEnd))`);
+  });
+  console.log(`  ${Math.round(milliseconds)} ms after the last file`);
+  assert.ok(milliseconds < 2000);
+});
+
+test('a large scene opens in slices, and can be cancelled', async () => {
+  await open('cradle');
+  await watch_tasks();
+  const dense = 'vibrated&particles.count=100000&box.size=[340.0,400.0]';
+  const go = (fragment) => browser.value(`void (location.hash = '${fragment}')`);
+  await go(dense);
+  // Its place is final from its second picture on.
+  await browser.until(`log.filter((line) => line.includes('"opening.cancel"')).length > 1`);
+  await click('opening.cancel');
+  await browser.until(`log.some((line) => line.includes('"cancel"'))`);
+  await sleep(500);
+  const {time} = await last('status');
+  await browser.until(`JSON.parse(log.filter((line) => line.includes('"event":"status"')).pop()).time > ${time}`);
+  assert.equal((await last('status')).run, 1);
+  await browser.value('void (tasks.length = 0)');
+  const began = Date.now();
+  await go(dense + '&seed=2');
+  await browser.until(`JSON.parse(log.filter((line) => line.includes('"event":"status"')).pop()).particles === 100000`, 120);
+  const whole = Date.now() - began;
+  const longest = await browser.value('Math.max(0, ...tasks)');
+  console.log(`  longest task ${Math.round(longest)} ms of ${whole} ms`);
+  assert.ok(longest < 0.25 * whole);
+});
+
+test('the gallery opens, and its pictures are made in slices', async () => {
+  await open('cradle', '&until=0');
+  await watch_tasks();
+  await click('gallery');
+  await browser.until('log.some((line) => line.includes(\'"gallery.vibrated"\'))');
+  await sleep(8000);
+  const longest = await browser.value('Math.max(0, ...tasks)');
+  console.log(`  longest task ${Math.round(longest)} ms`);
+  assert.ok(longest < 1000, `${longest} ms`);  // of a busy machine, which compiles shaders too
+  // Pictures of scenes have more colours than the list without them.
+  const [x, y, , height] = await place_of('gallery.vibrated');
+  const colours = await browser.value(`(() => {
+    Module._clatter_draw();
+    const gl = canvas.getContext('webgl2');
+    const pixels = new Uint8Array(4 * 90 * 60);
+    gl.readPixels(${Math.round(x)} + 5, canvas.height - ${Math.round(y + height)} + 5, 90, 60, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    return new Set(new Uint32Array(pixels.buffer)).size;
+  })()`);
+  assert.ok(colours > 100, `${colours} colours`);
+  await click('gallery.close');
+  await browser.until(`JSON.parse(log.filter((line) => line.includes('"event":"gallery"')).pop()).open === false`);
+});
+
+test('10 000 disks need less than 33 ms per picture without the work of OpenGL', async () => {
+  await open('vibrated&particles.count=10000&box.size=[120.0,150.0]');
+  await browser.value(`(() => {
+    const calls = WebGL2RenderingContext.prototype;
+    for (const name of ['drawArrays', 'drawElements', 'drawArraysInstanced', 'drawElementsInstanced',
+                        'bufferData', 'bufferSubData', 'texImage2D', 'texSubImage2D', 'blitFramebuffer',
+                        'clear', 'clearBufferfv', 'finish', 'flush']) {
+      calls[name] = () => {};
+    }
+  })()`);
+  const milliseconds = await least(3, () => browser.value(`(() => {
+    const pictures = 30;
+    const began = performance.now();
+    for (let k = 0; k < pictures; ++k) Module._clatter_draw();
+    return (performance.now() - began) / pictures;
+  })()`));
+  console.log(`  ${milliseconds.toFixed(1)} ms per picture`);
+  assert.ok(milliseconds < 33);
+});
+
+// A page with the same query and fragment in an iframe.
+const frame = '<!DOCTYPE html><link rel="icon" href="data:,"><iframe width="640" height="480"></iframe><script>' +
+    "document.querySelector('iframe').src = 'index.html' + location.search + location.hash</script>";
+
+server = await serve(folder, {'/frame.html': frame});
 browser = await Browser.start();
 let failed = 0;
 try {
@@ -207,8 +572,7 @@ try {
     if (!name.includes(chosen)) continue;
     try {
       complaints();
-      await run();
-      console.log(`ok: ${name}`);
+      console.log(`ok: ${name}${await run() || ''}`);
     } catch (error) {
       ++failed;
       console.log(`FAILED: ${name}\n  ${error.stack}`);
@@ -217,5 +581,6 @@ try {
 } finally {
   await browser.stop();
   server.close();
+  rmSync(scratch_folder, {recursive: true, force: true});
 }
 process.exitCode = failed ? 1 : 0;

@@ -368,6 +368,38 @@ void check_interrupted() {
   CHECK(looks_until<D>(thin, 20) == 20);
 }
 
+// Checks the state of a maker that pauses at every second look. Returns the number of pauses.
+template <int D>
+int pauses_of(const Scene& scene) {
+  StartMaker maker(scene, 90);
+  int looks = 0, pauses = 0;
+  while (!maker.advance([&] { return ++looks % 2 == 0; })) {
+    ++pauses;
+    REQUIRE(pauses < 1'000'000);
+    REQUIRE(maker.progress() >= 0.0);
+    REQUIRE(maker.progress() <= 1.0);
+  }
+  CHECK(maker.progress() == 1.0);
+  const auto state = std::get<State<D>>(maker.take());
+  const State<D> expected = start_state<D>(scene, 90);
+  CHECK(state.positions == expected.positions);
+  CHECK(state.velocities == expected.velocities);
+  return pauses;
+}
+
+template <int D>
+void check_pauses() {
+  for (const Case& c : cases<D>()) {
+    CAPTURE(c.fraction);
+    CAPTURE(c.how);
+    const int pauses = pauses_of<D>(scene_of<D>(c.fraction, {}));
+    if (c.fraction <= kMelted<D>) CHECK(pauses > 3);
+  }
+  Scene thin = channel<D>(0.01);
+  thin.particles.count = 40;
+  CHECK(pauses_of<D>(thin) >= 40);
+}
+
 template <int D>
 void check_saved() {
   const auto restarted = [](Scene scene, const State<D>& saved) {
@@ -527,6 +559,11 @@ TEST_CASE("Start state: forces, roughness and driving do not change the places")
 TEST_CASE("Start state: a request stops the making of it at any place, at once") {
   check_interrupted<2>();
   check_interrupted<3>();
+}
+
+TEST_CASE("Start state: pauses while it is made do not change it") {
+  check_pauses<2>();
+  check_pauses<3>();
 }
 
 TEST_CASE("Start state: a saved state starts a run, bit for bit") {

@@ -70,3 +70,59 @@ TEST_CASE("SlicedWorker: a delay of more than 100 ms is dropped") {
   CHECK(after > before);
   CHECK(after <= before + 0.1 + 1e-9);
 }
+
+// A gas whose start takes many slices.
+static Scene large_scene() {
+  return parse_scene("title = \"Large\"\nbox.size = [400.0, 600.0]\nparticles.count = 100000\n",
+                     "large.toml");
+}
+
+TEST_CASE("SlicedWorker: a large scene opens in slices, and later commands wait for it") {
+  SlicedWorker engine;
+  engine.send(command::Open{large_scene(), 1, false});
+  engine.send(command::SetLaws{{{"particles.restitution", "0.5"}}});
+  int slices = 0;
+  double progress = 0.0;
+  REQUIRE(work_until(engine, [&](const Frame& frame) {
+    ++slices;
+    if (frame.opening) CHECK(*frame.opening >= progress);
+    progress = frame.opening.value_or(progress);
+    CHECK(engine.busy() == (frame.handled < 2));
+    return frame.handled == 2;
+  }));
+  const Frame& frame = engine.frames().front();
+  CHECK(slices > 3);
+  CHECK(progress > 0.5);
+  CHECK(frame.run == 1);
+  CHECK(frame.snapshot.count() == 100'000);
+  CHECK(frame.scene->particles.restitution == 0.5);
+  CHECK_FALSE(frame.opening);
+  CHECK(frame.messages == 0);
+}
+
+TEST_CASE("SlicedWorker: an opening that is cancelled, or followed by another, has no effect") {
+  SlicedWorker engine;
+  const auto handled = [](std::uint64_t count) {
+    return [count](const Frame& frame) { return frame.handled == count; };
+  };
+  engine.send(command::Open{load_scene("vibrated"), 1, false});
+  REQUIRE(work_until(engine, handled(1)));
+  engine.send(command::Open{large_scene(), 1, false});
+  engine.work(2ms);
+  engine.frames().update();
+  REQUIRE(engine.frames().front().opening);
+  engine.send(command::SetLaws{{{"particles.restitution", "0.5"}}});
+  engine.send(command::CancelOpen{});
+  REQUIRE(work_until(engine, handled(4)));
+  CHECK(engine.frames().front().run == 1);
+  CHECK(engine.frames().front().scene->particles.restitution == 0.9);
+  CHECK_FALSE(engine.frames().front().opening);
+  CHECK_FALSE(engine.busy());
+
+  engine.send(command::Open{large_scene(), 1, false});
+  engine.work(2ms);
+  engine.send(command::Open{load_scene("cradle"), 1, false});
+  REQUIRE(work_until(engine, handled(6)));
+  CHECK(engine.frames().front().run == 2);
+  CHECK(engine.frames().front().scene->title == load_scene("cradle").title);
+}
