@@ -124,16 +124,17 @@ void EventLoop<D>::load(const ParticleStates<D>& gas, const Subdomain<D>& subdom
       home[axis] = lower_[axis] + double{record.strays[k].home[axis]};
     cells[k] = near_.cell_at(home);
   }
-  near_.fill(cells, by_cell_);
-  reorder(record.numbers, by_cell_);
-  reorder(record.own, by_cell_);
-  reorder(record.images, by_cell_);
-  reorder(record.strays, by_cell_);
+  std::vector<std::uint32_t> by_cell;
+  near_.fill(cells, by_cell);
+  reorder(record.numbers, by_cell);
+  reorder(record.own, by_cell);
+  reorder(record.images, by_cell);
+  reorder(record.strays, by_cell);
   for (std::uint32_t i = 0; i < count; ++i) {
     if (i + kAhead < count) prefetch(gas.particles[record.numbers[i + kAhead]]);
     gas_.copy(i, gas, record.numbers[i]);
     gas_.particles.set_image(i, record.images[i]);
-    plans_[i].cell = cells[by_cell_[i]];
+    plans_[i].cell = cells[by_cell[i]];
   }
   queue_.order_by(record.numbers.data());
   prediction_.order_by(record.numbers.data());

@@ -87,7 +87,7 @@ class EventLoop {
   /// Makes the current time the base. The boundary has already moved its base. Plans are invalid
   /// until plan_again().
   void move_base();
-  /// Plans the next events of all particles anew, in cells that fit the crowding.
+  /// Plans the next events of all particles, in cells that fit the crowding.
   void plan_again();
   /// Reports every event from now on to an observer.
   void add_observer(Observer<D>& observer) { observers_.push_back(&observer); }
@@ -155,9 +155,8 @@ class EventLoop {
   std::optional<Watchdog> watchdog_;  // absent if the gas cannot collapse or diverge
   std::int64_t prefetched_bucket_ = 0;
   std::vector<Observer<D>*> observers_;
-  TileRecord<D>* record_ = nullptr;     // of a tile; null for the whole gas
-  Vec<D> lower_ = Vec<D>::Zero();       // corner of the tile's subdomain
-  std::vector<std::uint32_t> by_cell_;  // order of the tile's particles
+  TileRecord<D>* record_ = nullptr;  // of a tile; null for the whole gas
+  Vec<D> lower_ = Vec<D>::Zero();    // corner of the tile's subdomain
   EventCounts counts_;
   RunChecks checks_;
 };
