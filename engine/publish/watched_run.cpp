@@ -134,9 +134,9 @@ RunOf<D>::RunOf(const Scene& scene, std::uint64_t seed, State<D> start, std::siz
     recorded_laws_.reset();
   };
   observe(run_.simulation());
-  SavedState<D> start = saved_state();
-  start.changed_until = -std::numeric_limits<double>::infinity();
-  record_.add(std::move(start));
+  SavedState<D> first = saved_state();
+  first.changed_until = -std::numeric_limits<double>::infinity();
+  record_.add(std::move(first));
 }
 
 template <int D>
