@@ -268,7 +268,7 @@ class StartWork : public StartMaker::Work {
 
   double progress() const override {
     if (insertion_) {
-      return static_cast<double>(insertion_->placed()) / static_cast<double>(count());
+      return static_cast<double>(insertion_->placed()) / std::max(1, count());
     }
     if (melting_) return melting_->progress();
     return is_complete() ? 1.0 : 0.0;
