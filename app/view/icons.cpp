@@ -43,6 +43,7 @@ static void draw_icon(ImDrawList& list, Icon icon, ImVec2 centre, float r, ImU32
 }
 
 bool icon_button(Controls& controls, const char* key, Icon icon, const char* help) {
+  if (!controls.shows(key)) return false;
   const float height = ImGui::GetFrameHeight();
   ImGui::PushID(key);
   const bool clicked = controls.button(key, "##icon", help, 1.35f * height);

@@ -106,12 +106,10 @@ void Foresight<D>::in_parallel(std::size_t count,
       next = count;
     }
   };
-  {
-    std::vector<std::jthread> threads;
-    for (std::size_t k = 1; k < std::min(benches_.size(), count); ++k)
-      threads.emplace_back(take, k);
-    take(0);
-  }
+  std::vector<std::thread> threads;
+  for (std::size_t k = 1; k < std::min(benches_.size(), count); ++k) threads.emplace_back(take, k);
+  take(0);
+  for (std::thread& thread : threads) thread.join();
   for (const std::exception_ptr& error : errors) {
     if (error) std::rethrow_exception(error);
   }
