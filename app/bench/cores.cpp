@@ -37,11 +37,11 @@ struct CoresRate {
 };
 
 template <int D>
-CoresRate measure_rate(const Model<D>& model, const RunState<D>& start, int threads,
-                       std::uint64_t collisions) {
+CoresRate measure_rate(const Model<D>& model, const RunState<D>& start, double fraction,
+                       int threads, std::uint64_t collisions) {
   Simulation<D> simulation(model, start);
   if (threads > 0) {
-    simulation.use_threads(threads, tile_sizes(start.flights.size(), threads));
+    simulation.use_threads(threads, tile_sizes(start.flights.size(), fraction, threads));
     if (simulation.tiles() == 0) return {};
   }
   const auto began = std::chrono::steady_clock::now();
@@ -71,9 +71,10 @@ std::vector<CoresRate> measure_gas(const Scene& scene, int most) {
   simulation->run_until(kNever, kEquilibration * particles);
   const std::uint64_t batch = std::max<std::uint64_t>(2'000'000, 5 * particles);
   const RunState<D> start = simulation->save();
-  std::vector<CoresRate> rates = {measure_rate<D>(simulation->model(), start, 0, batch)};
+  const double fraction = scene.packing_fraction();
+  std::vector<CoresRate> rates = {measure_rate<D>(simulation->model(), start, fraction, 0, batch)};
   for (int threads = 1;; threads = std::min(2 * threads, most)) {
-    rates.push_back(measure_rate<D>(simulation->model(), start, threads, batch));
+    rates.push_back(measure_rate<D>(simulation->model(), start, fraction, threads, batch));
     if (rates.back().rate == 0.0) {
       rates.pop_back();
     } else if (rates.back().hash != rates.front().hash) {

@@ -19,13 +19,15 @@ namespace clatter {
 static constexpr double kGrowth = 1.5;
 
 bool runs_in_tiles(std::size_t particles, int threads) {
-  constexpr std::size_t kLeast = 50'000;  // measured on two cores
+  constexpr std::size_t kLeast = 200'000;  // measured on two cores
   return threads > 1 && particles >= kLeast;
 }
 
-TileSizes tile_sizes(std::size_t particles, int threads) {
+TileSizes tile_sizes(std::size_t particles, double fraction, int threads) {
   constexpr double kTilesPerThread = 4.0;
+  constexpr double kHaloOfFraction = 4.5;  // measured at 0.1 and 0.3
   TileSizes sizes;
+  sizes.halo = std::max(sizes.halo, kHaloOfFraction / fraction);
   sizes.particles =
       std::min(sizes.particles, static_cast<double>(particles) / (kTilesPerThread * threads));
   return sizes;

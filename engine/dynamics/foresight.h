@@ -29,8 +29,9 @@ struct TileSizes {
 /// Whether a gas of so many particles runs faster in tiles than as a whole.
 bool runs_in_tiles(std::size_t particles, int threads);
 
-/// The best sizes for a gas of so many particles: each thread has several tiles.
-TileSizes tile_sizes(std::size_t particles, int threads);
+/// The best sizes for a gas of so many particles that fill a fraction of the box: each thread has
+/// several tiles. Influence travels farther in a dilute gas.
+TileSizes tile_sizes(std::size_t particles, double fraction, int threads);
 
 /// Finds the collisions of a large gas on several threads, before the run reaches their times.
 /// Tiles of the box, each with a halo of copies, run alone for a window of time. A certificate then

@@ -12,6 +12,7 @@
 #include "engine/dynamics/state_hash.h"
 #include "engine/error.h"
 #include "engine/physics/fraction.h"
+#include "engine/physics/theory.h"
 
 namespace clatter {
 
@@ -169,7 +170,9 @@ void Simulation<D>::leave_tiles() {
 template <int D>
 void Simulation<D>::use_threads(int threads) {
   if (!runs_in_tiles(particles().size(), threads)) return;
-  use_threads(threads, tile_sizes(particles().size(), threads));
+  const auto count = static_cast<double>(particles().size());
+  const double fraction = count * packing_fraction(D, model_.diameter) / model_.box.prod();
+  use_threads(threads, tile_sizes(particles().size(), fraction, threads));
 }
 
 template <int D>
