@@ -37,7 +37,8 @@ void print_parts(const Scene& scene) {
 
 void print_way(const Scene& scene) {
   const auto particles = static_cast<std::size_t>(scene.particles.count);
-  if (!runs_in_tiles(particles, processors())) return;
+  const bool kicked = scene.bulk_drive.has_value();
+  if (!runs_in_tiles(scene.dimension(), particles, kicked, processors())) return;
   std::fprintf(stderr, "Runs in tiles on several threads; --threads 1 runs the gas as a whole.\n");
 }
 

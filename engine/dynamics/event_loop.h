@@ -68,8 +68,10 @@ class EventLoop {
   }
   /// Adds the current ways of all particles to the record of a tile.
   void note_all_strays();
-  /// Whether somebody needs all events in order: an observer or the watchdog.
-  bool is_watched() const { return !observers_.empty() || watchdog_.has_value(); }
+  /// Whether all events are needed in order: by an observer, the watchdog or the speed limit.
+  bool is_watched() const {
+    return !observers_.empty() || watchdog_.has_value() || fastest_ < kNever;
+  }
   /// Exchanges all particles' data with their data after a number of further collisions.
   void adopt(ParticleStates<D>& later, double time, std::uint64_t pair_collisions,
              std::uint64_t wall_collisions, const RunChecks& checks);

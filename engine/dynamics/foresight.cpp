@@ -6,6 +6,7 @@
 #include <cstring>
 #include <exception>
 #include <limits>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -18,9 +19,9 @@ namespace clatter {
 // Growth of the halo of a tile that is redone.
 static constexpr double kGrowth = 1.5;
 
-bool runs_in_tiles(std::size_t particles, int threads) {
-  constexpr std::size_t kLeast = 200'000;  // measured on two cores
-  return threads > 1 && particles >= kLeast;
+bool runs_in_tiles(int dimension, std::size_t particles, bool kicked, int threads) {
+  constexpr std::size_t kLeast = 200'000;  // measured for disks on two cores
+  return dimension == 2 && !kicked && threads > 1 && particles >= kLeast;
 }
 
 TileSizes tile_sizes(std::size_t particles, double fraction, int threads) {
@@ -109,7 +110,13 @@ void Foresight<D>::in_parallel(std::size_t count,
     }
   };
   std::vector<std::thread> threads;
-  for (std::size_t k = 1; k < std::min(benches_.size(), count); ++k) threads.emplace_back(take, k);
+  try {
+    for (std::size_t k = 1; k < std::min(benches_.size(), count); ++k) {
+      threads.emplace_back(take, k);
+    }
+  } catch (const std::system_error&) {
+    // The system has no more threads; those that run do all the work.
+  }
   take(0);
   for (std::thread& thread : threads) thread.join();
   for (const std::exception_ptr& error : errors) {
@@ -261,9 +268,8 @@ void Foresight<D>::run(const ParticleStates<D>& gas, double end, bool keep_event
   const auto most = static_cast<std::uint64_t>(100.0 * sizes_.particles * sizes_.collisions);
   using Halt = typename EventLoop<D>::Halt;
   Halt halt;
-  do {
-    halt = loop.advance(end, most, kNoLimit);
-  } while (halt == Halt::BaseDue);
+  tile.base_due = false;
+  while ((halt = loop.advance(end, most, kNoLimit)) == Halt::BaseDue) tile.base_due = true;
   tile.overrun = halt != Halt::Time;
   tile.pair_collisions = record.pair_collisions;
   tile.wall_collisions = record.wall_collisions;
@@ -440,6 +446,7 @@ bool Foresight<D>::advance(EventLoop<D>& gas, double horizon, std::uint64_t most
   std::uint64_t pairs = 0, walls = 0;
   RunChecks checks;
   for (const Tile& tile : tiles_) {
+    if (tile.base_due) return false;
     pairs += tile.pair_collisions;
     walls += tile.wall_collisions;
     checks.deepest_overlap = std::max(checks.deepest_overlap, tile.checks.deepest_overlap);

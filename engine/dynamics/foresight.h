@@ -26,8 +26,9 @@ struct TileSizes {
   double halo = 10.0;           ///< width of the first halos, in diameters
 };
 
-/// Whether a gas of so many particles runs faster in tiles than as a whole.
-bool runs_in_tiles(std::size_t particles, int threads);
+/// Whether a gas of so many particles runs faster in tiles than as a whole, as far as measured:
+/// disks that no bulk driving kicks.
+bool runs_in_tiles(int dimension, std::size_t particles, bool kicked, int threads);
 
 /// The best sizes for a gas of so many particles that fill a fraction of the box: each thread has
 /// several tiles. Influence travels farther in a dilute gas.
@@ -67,8 +68,9 @@ class Foresight {
   /// certificate.
   bool look_ahead(const ParticleStates<D>& gas, double horizon, std::uint64_t most);
   /// Runs `gas`, which has had all events up to end(), through the next window, up to `horizon` at
-  /// most. Returns false, and changes nothing, without a certificate or after more than `most`
-  /// collisions. Only for gases without t_c that nobody observes.
+  /// most. Returns false, and changes nothing, without a certificate, after more than `most`
+  /// collisions, or if the base would have to move. Only for gases without t_c that nobody
+  /// observes.
   bool advance(EventLoop<D>& gas, double horizon, std::uint64_t most);
   /// Number of collisions of a full window.
   double typical_window() const {
@@ -116,6 +118,7 @@ class Foresight {
     std::uint64_t all_collisions = 0;  // of copies too
     RunChecks checks;                  // of own particles
     bool overrun = false;              // whether the run had too many events
+    bool base_due = false;             // whether a particle became too fast for the base
     double lack = 0.0;  // part of the halo's width that a certificate lacks; negative: certified
   };
   // The loop of one thread, which runs one tile after another.

@@ -169,7 +169,7 @@ void Simulation<D>::leave_tiles() {
 
 template <int D>
 void Simulation<D>::use_threads(int threads) {
-  if (!runs_in_tiles(particles().size(), threads)) return;
+  if (!runs_in_tiles(D, particles().size(), model_.bulk_drive.has_value(), threads)) return;
   const auto count = static_cast<double>(particles().size());
   const double fraction = count * packing_fraction(D, model_.diameter) / model_.box.prod();
   use_threads(threads, tile_sizes(particles().size(), fraction, threads));
@@ -197,6 +197,7 @@ template <int D>
 bool Simulation<D>::advance_window(double stop, std::uint64_t collisions, std::uint64_t steps) {
   constexpr double kReserve = 1.2;  // a window may have more events than expected
   if (loop_.is_watched() || model_.contact_time || foresight_->has_events()) return false;
+  if (counts().collisions() >= collisions || counts().steps() >= steps) return false;
   const std::uint64_t most = std::min(
       {loop_.until_base_moves(), collisions - counts().collisions(), steps - counts().steps()});
   if (static_cast<double>(most) < kReserve * foresight_->typical_window()) return false;

@@ -244,9 +244,11 @@ TEST_CASE("Foresight: a collapsing gas stops at the same collision as without ti
 }
 
 TEST_CASE("Foresight: gases run in tiles where tiles pay") {
-  CHECK(!runs_in_tiles(1'000'000, 1));
-  CHECK(!runs_in_tiles(30'000, 16));
-  CHECK(runs_in_tiles(1'000'000, 2));
+  CHECK(runs_in_tiles(2, 1'000'000, false, 2));
+  CHECK(!runs_in_tiles(2, 1'000'000, false, 1));
+  CHECK(!runs_in_tiles(2, 30'000, false, 16));
+  CHECK(!runs_in_tiles(2, 1'000'000, true, 2));
+  CHECK(!runs_in_tiles(3, 1'000'000, false, 2));
   Simulation<2> small(periodic_box(20.0, 20.0), random_gas(periodic_box(20.0, 20.0), 100, 3));
   small.use_threads(8);
   CHECK(small.tiles() == 0);
@@ -320,4 +322,15 @@ TEST_CASE("Foresight: a copy that a particle from beyond the halo pushes into th
   const FirstWindow window = first_window(row_of({95.5, 100.0, 106.3}, -40.0), 9.0);
   CHECK(window.events == 2);
   CHECK(window.redone > 0);
+}
+
+TEST_CASE("Foresight: a run whose limit of collisions is reached does not continue") {
+  const Model<2> model = periodic_box(70.0, 50.0);
+  Simulation<2> simulation(model, random_gas(model, 1500, 3));
+  simulation.use_threads(2, {.particles = 200.0, .collisions = 1.0, .halo = 4.0});
+  CHECK(!simulation.run_until(kNever, 9000));
+  const std::uint64_t hash = simulation.state_hash();
+  CHECK(!simulation.run_until(kNever, 5000));
+  CHECK(simulation.counts().collisions() == 9000);
+  CHECK(simulation.state_hash() == hash);
 }

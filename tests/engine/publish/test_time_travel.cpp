@@ -120,7 +120,7 @@ TEST_CASE("Time travel: after 100 jumps rough spheres have the states of a run w
 
 namespace {
 
-// A change of a law at t = 10, after which the run goes on to t = 20. Then the run goes back to
+// A change of a law at t = 10, then the run continues to t = 20. Then the run goes back to
 // t = 8.
 std::unique_ptr<WatchedRun> changed_run(const Scene& scene) {
   auto run = watched_run(scene, kSeed);
@@ -310,7 +310,7 @@ TEST_CASE("Time travel: sums and rotations at a time are those of the first pass
   }
 }
 
-TEST_CASE("Time travel: a run that stopped by itself returns to its stop, and goes on after it") {
+TEST_CASE("Time travel: a run that stopped by itself returns to its stop, and continues after it") {
   const auto run = watched_run(collapsing_gas(), kSeed);
   const double stop = run_to_stop(*run);
   const std::uint64_t hash = hash_of(*run);
