@@ -253,6 +253,10 @@ EMSCRIPTEN_KEEPALIVE void clatter_key(int key, int letter, int shift, int ctrl, 
 EMSCRIPTEN_KEEPALIVE void clatter_type(const char* text) {
   page->type(text);
 }
+// Whether a field for text has the focus.
+EMSCRIPTEN_KEEPALIVE int clatter_wants_text() {
+  return ImGui::GetIO().WantTextInput;
+}
 EMSCRIPTEN_KEEPALIVE void clatter_drop(const char* path) {
   page->drop(path);
 }
