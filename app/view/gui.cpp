@@ -270,6 +270,7 @@ void Gui::viewport() {
     const EmbeddedFile* chosen = gallery_.draw(controls_, whole.x, whole.y, panels_.gallery);
     if (chosen) open_gallery_scene(*chosen);
   }
+  ask_about_changes();
   if (panels_.help) help_window(session_.scene().dimension(), whole.x, whole.y);
   if (frame.opening) opening_note(session_, controls_, area_);
   if (!frame.scene) return;
@@ -348,8 +349,10 @@ View Gui::shown_view() const {
 }
 
 void Gui::open_gallery_scene(const EmbeddedFile& scene) {
-  panels_.gallery = false;
-  open(load_gallery_scene(scene), session_.frame().seed);
+  before_loss([this, &scene] {
+    panels_.gallery = false;
+    open(load_gallery_scene(scene), session_.frame().seed);
+  });
 }
 
 }  // namespace clatter

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "app/view/script_log.h"
 #include "app/view/session.h"
 #include "app/view/timeline.h"
+#include "app/view/unsaved_question.h"
 #include "app/view/viewport.h"
 #include "app/view/wall_grip.h"
 #include "app/view/window_input.h"
@@ -34,6 +36,11 @@ class Gui {
   void embed(std::vector<std::string> controls) { controls_.choose(std::move(controls)); }
   /// Whether a place of the window shows the gas and no panel.
   bool shows_gas(float x, float y) const;
+  /// Whether the gas has changes by hand that no file has.
+  bool unsaved() const { return session_.unsaved(); }
+  /// Whether the window may close now. With unsaved changes it asks the user first, and closes
+  /// after the answer.
+  bool may_close();
   /// Shows a message.
   void tell(const std::string& message) { session_.tell(message); }
   /// Handles the input and draws the next picture of the window.
@@ -47,6 +54,10 @@ class Gui {
  private:
   void begin();
   void use_keys();
+  void before_loss(std::function<void()> action);
+  void ask_about_changes();
+  void answer_question(Answer answer);
+  void use_question_key(const KeyPress& press);
   void use_function_key(const KeyPress& press);
   void use_key(const KeyPress& press);
   void use_control_key(const KeyPress& press);
@@ -109,6 +120,7 @@ class Gui {
   GuiLayer gui_;
   PanelVisibility panels_;
   MessageNote message_;
+  std::function<void()> delayed_;  // action after the question about unsaved changes; empty: none
   std::string title_;              // title of the window; empty: name of the program
   std::uint64_t drawn_views_ = 0;  // Session::views() at the last picture
   bool told_gallery_ = false;      // the script log has the gallery as open

@@ -17,10 +17,20 @@ namespace clatter {
 void Gui::use_keys() {
   for (const std::string& file : input_.take_dropped()) open_file(file);
   for (const KeyPress& press : input_.take_presses()) {
+    if (delayed_) {
+      use_question_key(press);
+      continue;
+    }
     use_function_key(press);
     if (!ImGui::GetIO().WantTextInput) use_key(press);
   }
-  if (!ImGui::GetIO().WantTextInput) use_signs();
+  if (!ImGui::GetIO().WantTextInput && !delayed_) use_signs();
+}
+
+void Gui::use_question_key(const KeyPress& press) {
+  if (press.key != GLFW_KEY_ESCAPE && press.key != GLFW_KEY_ENTER) return;
+  ImGui::ClosePopupToLevel(0, true);
+  answer_question(press.key == GLFW_KEY_ENTER ? Answer::Save : Answer::Cancel);
 }
 
 void Gui::use_function_key(const KeyPress& press) {

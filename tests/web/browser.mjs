@@ -69,6 +69,9 @@ export class Browser {
       for (const message of messages.map((one) => JSON.parse(one))) {
         const answer = this.answers.get(message.id);
         this.answers.delete(message.id);
+        if (message.method === 'Page.javascriptDialogOpening') {
+          this.send('Page.handleJavaScriptDialog', {accept: true});
+        }
         if (!answer) this.events.push(message);
         else if (message.error) answer.reject(new Error(JSON.stringify(message.error)));
         else answer.resolve(message.result);
