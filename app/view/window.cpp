@@ -105,6 +105,7 @@ static void show(const WindowOptions& options) {
   Worker worker(rate, [] { glfwPostEmptyEvent(); });
   {
     Gui gui(desktop, context.gl(), input, worker, log);
+    gui.set_playlist(options.playlist);
     gui.open(options.scene, options.seed, options.until);
     // Panels need several pictures after an event to settle.
     constexpr int kSettle = 4;
