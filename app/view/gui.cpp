@@ -146,9 +146,10 @@ float Gui::top_panel() {
   ImGui::SetNextWindowPos(ImVec2(0, 0));
   ImGui::SetNextWindowSize(ImVec2(whole.x, top));
   ImGui::Begin("top", nullptr, kFixedPanel | ImGuiWindowFlags_NoScrollbar);
-  top_bar(session_, controls_, panels_);
+  const bool switches = top_bar(session_, controls_, panels_);
   ImGui::End();
   ImGui::PopStyleVar();
+  if (switches) lecture(!panels_.lecture);
   return top;
 }
 
@@ -176,6 +177,9 @@ void Gui::record() {
       break;
     case Recording::SaveScene:
       save_scene();
+      break;
+    case Recording::RestoreScene:
+      session_.restore();
       break;
     case Recording::CopyLink:
       copy_link();

@@ -41,10 +41,15 @@ void Gui::all_controls() {
   accuracy_panel(session_, controls_);
 }
 
-// The names of the sliders of lecture mode.
+// The names of the sliders of lecture mode, each once.
 std::vector<std::string> Gui::lecture_sliders() const {
   const Lecture& lecture = session_.view().lecture;
-  return lecture.sliders.empty() ? usual_sliders(session_.scene()) : lecture.sliders;
+  std::vector<std::string> names;
+  for (const std::string& name :
+       lecture.sliders.empty() ? usual_sliders(session_.scene()) : lecture.sliders) {
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  }
+  return names;
 }
 
 void Gui::lecture_panels() {

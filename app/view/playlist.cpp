@@ -61,9 +61,8 @@ Entry entry_in(const toml::node& node, const std::string& file) {
                       "give a table of keys and values");
     } else {
       const std::string near(near_miss(name, known));
-      throw UserError(
-          place_of(value, file), "unknown key '" + name + "' of a scene",
-          near.empty() ? "use scene, set and seed" : "did you mean '" + near + "'?");
+      throw UserError(place_of(value, file), "unknown key '" + name + "' of a scene",
+                      near.empty() ? "use scene, set and seed" : "did you mean '" + near + "'?");
     }
   }
   if (entry.scene.empty()) {

@@ -57,6 +57,8 @@ class Session {
   /// Restarts the scene with the current laws. A scene with scheduled changes restarts with the
   /// laws it was opened with.
   void restart();
+  /// Starts the scene as it was opened. Undo starts it with its changes.
+  void restore() { open(opened_, seed_, plays_); }
   /// Calls restart() with the next seed.
   void restart_with_new_seed();
   /// Starts the scene in the other dimension, with disks or spheres, see change_dimension(). Undo

@@ -192,7 +192,7 @@ void draw_column(ImDrawList& list, const Snapshot& snapshot, const Projection& p
   const float room = static_cast<float>(page.size.height) - page.edge - page.heading;
   const auto all = figures_of(snapshot, page.theme);
   const auto fitting = static_cast<std::size_t>(std::max(0.0f, (room + 0.5f * unit) / line));
-  const std::span figures(all.data(), std::min(fitting, all.size()));
+  const std::span<const Figure> figures(all.data(), std::min(fitting, all.size()));
   float y = page.size.height - page.edge - std::round(1.5f * unit * figures.size() - 0.5f * unit);
   if (y - 3.0f * unit > page.heading) {
     const double length = scale_length(snapshot, projection);

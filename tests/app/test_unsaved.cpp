@@ -104,6 +104,26 @@ TEST_CASE("Window: changes that were given up for another scene come back with u
   driver.wait_for("quit");
 }
 
+TEST_CASE("Window: the scene is restored as it was opened, and undo returns to the changes") {
+  const GuiDriver driver("--set particles.restitution=0.85", "1280x1700");
+  driver.drag("particles.restitution", 0.83, 0.5);
+  const auto has = [](double low, double high) {
+    return [=](const json& status) {
+      return status["restitution"] >= low && status["restitution"] <= high;
+    };
+  };
+  driver.wait_for("status", 0, has(0.45, 0.55));
+  std::size_t told = driver.told();
+  driver.click("restore");
+  CHECK(driver.wait_for("status", told, has(0.85, 0.85))["changes"] == 0);
+  told = driver.told();
+  driver.key("ctrl+z");
+  driver.wait_for("status", told, has(0.45, 0.55));
+  driver.key("ctrl+y");
+  driver.key("ctrl+q");
+  driver.wait_for("quit");
+}
+
 TEST_CASE("Window: what it saves takes the place of no file") {
   const GuiDriver driver("", "1280x1700");
   driver.shell().run("echo kept | tee clatter-1.toml clatter-2.mp4 clatter-3.png clatter-4.csv");
