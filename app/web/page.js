@@ -342,6 +342,10 @@ function start() {
     text_of('clatter_open', fragment(), until());
     wake();
   });
+  // The browser asks before it leaves a page with unsaved changes. An embedded gas has no files.
+  addEventListener('beforeunload', (event) => {
+    if (ready && !query.has('embed') && Module._clatter_unsaved()) event.preventDefault();
+  });
   canvas.addEventListener('webglcontextlost', () => {
     ready = false;
     note.textContent = 'The graphics of this page were lost. Reload it to start again.';
