@@ -334,8 +334,9 @@ void Gui::lecture_settings() {
                    ImGuiWindowFlags_AlwaysAutoResize);
   scale_slider();
   View view = session_.view();
-  const bool changed = choose_sliders(view.lecture) | choose_lecture_plot(view.lecture);
-  controls_.show(view, changed);
+  const bool sliders = choose_sliders(view.lecture);
+  const bool plot = choose_lecture_plot(view.lecture);
+  controls_.show(view, sliders || plot);
   controls_.toggle("lecture.captions", "Caption", "The caption of the scene", tools_.captions);
   if (choose(controls_, "lecture.theme", "Theme", "Colours in lecture mode", kThemes, tools_.theme,
              Theme::Projector)) {

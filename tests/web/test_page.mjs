@@ -15,7 +15,7 @@ const test = (name, run) => cases.set(name, run);
 // Of `clatter measure vibrated --until 20 --seed 1`.
 const kHash = '5ca4f7af577a3f59';
 
-let browser, server;
+let browser, server, host;  // host serves pages of another origin
 
 const scratch_folder = mkdtempSync(join(tmpdir(), 'clatter-page-'));
 const scratch = (name) => join(scratch_folder, name);
@@ -316,6 +316,29 @@ test('one finger turns spheres', () => as_telephone(async () => {
   assert.ok((await events('turn')).length);
 }));
 
+test('a touched field of text shows the keyboard of the screen', () => as_telephone(async () => {
+  await open('cradle', '&until=0');
+  const focused = () => browser.value('document.activeElement.id');
+  await tap('gallery');
+  assert.equal(await focused(), 'canvas');
+  const [x, y, , height] = await settled_place('gallery.close');
+  await touch('touchStart', [x - 100, y + height / 2]);
+  await sleep(100);
+  await touch('touchEnd');
+  await sleep(500);
+  assert.equal(await focused(), 'keys');
+  // Such keyboards insert words, replace them and delete characters, without codes of keys.
+  await browser.send('Input.insertText', {text: 'Haff cook'});
+  await browser.value(`document.execCommand('delete')`);
+  await browser.send('Input.insertText', {text: 'l'});
+  await browser.value(`(keys.setSelectionRange(100, 105), document.execCommand('delete'))`);
+  await sleep(500);
+  await browser.send('Input.dispatchKeyEvent', {type: 'keyDown', code: 'Enter', key: 'Enter'});
+  await sleep(500);
+  await browser.send('Input.dispatchKeyEvent', {type: 'keyUp', code: 'Enter', key: 'Enter'});
+  await browser.until(`log.some((line) => line.includes('"event":"open"') && line.includes('Haff'))`);
+}));
+
 // The last test with fingers: after it, Chromium delivers no single touch to the next page.
 test('two fingers move and zoom the view, and pick nothing', () => as_telephone(async () => {
   await open('vibrated', '&until=0');
@@ -334,14 +357,16 @@ test('two fingers move and zoom the view, and pick nothing', () => as_telephone(
 
 // ---- embedded ----
 
-test('an embedded gas has its chosen controls alone, in an iframe of another page', async () => {
+test('an embedded gas has its chosen controls alone, in an iframe of another origin', async () => {
   const controls = 'play,particles.restitution,walls.left.drive_speed';
-  await browser.open(`${server.address}frame.html?embed&log&controls=${controls}#vibrated`,
-                     `document.querySelector('iframe').contentDocument.title.includes('Vibrated')`);
+  await browser.open(`${host.address}frame.html?embed&log&controls=${controls}#vibrated`,
+                     `document.querySelector('iframe')?.contentDocument === null`);
+  const inside = async (expression) => browser.value(expression, await browser.iframe());
+  while (!await inside(`document.title.includes('Vibrated')`)) await sleep(100);
   await sleep(1500);
-  const names = await browser.value(
+  const names = await inside(
       `log.map((line) => JSON.parse(line)).filter((event) => event.event === 'widget')
-      .map((event) => event.name)`, await browser.iframe());
+      .map((event) => event.name)`);
   for (const name of controls.split(',')) assert.ok(names.includes(name), `no ${name}`);
   for (const name of ['gallery', 'reset', 'particles.count', 'walls.right.drive_speed']) {
     assert.ok(!names.includes(name), name);
@@ -560,11 +585,11 @@ test('10 000 disks need less than 33 ms per picture without the work of OpenGL',
   assert.ok(milliseconds < 33);
 });
 
-// A page with the same query and fragment in an iframe.
+server = await serve(folder);
+// A page that shows the gas of the same query and fragment in an iframe.
 const frame = '<!DOCTYPE html><link rel="icon" href="data:,"><iframe width="640" height="480"></iframe><script>' +
-    "document.querySelector('iframe').src = 'index.html' + location.search + location.hash</script>";
-
-server = await serve(folder, {'/frame.html': frame});
+    `document.querySelector('iframe').src = '${server.address}' + location.search + location.hash</script>`;
+host = await serve(folder, {'/frame.html': frame});
 browser = await Browser.start();
 let failed = 0;
 try {
@@ -582,6 +607,7 @@ try {
 } finally {
   await browser.stop();
   server.close();
+  host.close();
   rmSync(scratch_folder, {recursive: true, force: true});
 }
 process.exitCode = failed ? 1 : 0;
