@@ -119,6 +119,29 @@ test('a drag of the slider of restitution cools the gas', async () => {
             `T = ${before.temperature} became ${after.temperature}`);
 });
 
+// Leaves the page. Returns the kinds of the questions that it asked before.
+async function leave() {
+  const questions = () => browser.events.filter((event) => event.method === 'Page.javascriptDialogOpening')
+      .map((event) => event.params.type);
+  let gone = false;
+  const going = browser.send('Page.navigate', {url: 'about:blank'}).then(() => { gone = true; });
+  while (!gone && !questions().length) await sleep(100);
+  const asked = questions();
+  if (asked.length) await browser.send('Page.handleJavaScriptDialog', {accept: true});
+  await going;
+  return asked;
+}
+
+test('a page with unsaved changes asks before it is left, and an unchanged one does not', async () => {
+  await open('cradle', '&until=0');
+  await click('viewport');  // browsers ask only after a click or a key
+  assert.deepEqual(await leave(), []);
+  await open('vibrated');
+  await drag('particles.restitution', 0.3);
+  await sleep(1000);
+  assert.deepEqual(await leave(), ['beforeunload']);
+});
+
 test('a link sets keys, and a copied link opens the same scene', async () => {
   await open('vibrated&particles.restitution=0.6&particles.count=120&view.field=temperature&seed=5');
   assert.equal((await last('status')).restitution, 0.6);
