@@ -362,6 +362,17 @@ test('a touched field of text shows the keyboard of the screen', () => as_teleph
   await browser.until(`log.some((line) => line.includes('"event":"open"') && line.includes('Haff'))`);
 }));
 
+test('a touched number is typed on the keyboard of the screen', () => as_telephone(async () => {
+  await open('vibrated', '&until=0');
+  await tap('sheet.gas');
+  await tap('particles.restitution.number');
+  assert.equal(await browser.value('document.activeElement.id'), 'keys');
+  await browser.send('Input.insertText', {text: '0.55'});
+  await sleep(500);
+  await browser.send('Input.dispatchKeyEvent', {type: 'keyDown', code: 'Enter', key: 'Enter'});
+  await browser.until(`JSON.parse(log.filter((line) => line.includes('"event":"status"')).pop()).restitution === 0.55`);
+}));
+
 // The last test with fingers: after it, Chromium delivers no single touch to the next page.
 test('two fingers move and zoom the view, and pick nothing', () => as_telephone(async () => {
   await open('vibrated', '&until=0');
