@@ -71,8 +71,9 @@ double contrast_ratio(Colour a, Colour b) {
 }
 
 Colour mix(Colour a, Colour b, double t) {
+  // lround() is a call of a function, and fields have a million channels a picture.
   auto channel = [t](int from, int to) {
-    return static_cast<std::uint8_t>(std::lround(from + t * (to - from)));
+    return static_cast<std::uint8_t>(from + t * (to - from) + 0.5);
   };
   return {channel(a.red, b.red), channel(a.green, b.green), channel(a.blue, b.blue),
           channel(a.alpha, b.alpha)};

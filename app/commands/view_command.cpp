@@ -15,6 +15,7 @@ struct ViewOptions {
   CommonOptions common;
   std::string size = "1280x800";
   Backend backend = Backend::Auto;
+  std::string playlist;
   std::string script_log;
 };
 
@@ -24,8 +25,14 @@ int view(const ViewOptions& options) {
                     "give glfw, or film the scene with `clatter render`");
   }
   WindowOptions window;
-  window.scene = load(options.common);
   window.seed = options.common.seed.value_or(1);
+  if (options.playlist.empty()) {
+    window.scene = load(options.common);
+  } else {
+    window.playlist = load_playlist(options.playlist);
+    window.scene = window.playlist.front().scene;
+    window.seed = window.playlist.front().seed.value_or(window.seed);
+  }
   window.until = options.common.until;
   window.script_log = options.script_log;
   window.size = parse_size(options.size, {320, 240});
@@ -40,7 +47,13 @@ void add_view_command(CLI::App& program, int& exit_code) {
   options->common.scene = "vibrated";
   CLI::App* command = program.add_subcommand("view", "Explore a scene in a window.");
   add_scene_flags(*command, options->common);
-  command->get_option("scene")->required(false)->capture_default_str();
+  CLI::Option* scene = command->get_option("scene")->required(false)->capture_default_str();
+  command
+      ->add_option("--playlist", options->playlist,
+                   "TOML file with a list of scenes for the keys [ and ].")
+      ->type_name("FILE")
+      ->excludes(scene)
+      ->excludes("--set");
   command->add_option("--size", options->size, "Size of the window in pixels.")
       ->type_name("WIDTHxHEIGHT")
       ->capture_default_str();

@@ -26,7 +26,11 @@ static void begin_tip() {
   const float room = (kTipWidth + 3.0f) * unit;
   const bool low = ImGui::GetItemRectMin().y > 0.5f * screen.y;
   const float y = low ? ImGui::GetItemRectMax().y : ImGui::GetItemRectMin().y;
-  if (right + room < screen.x) {
+  if (low && left <= 0.0f && right >= screen.x) {
+    // Above a bar along the lower edge, within the screen.
+    const float x = ImGui::GetItemRectMin().x;
+    ImGui::SetNextWindowPos(ImVec2(x, window.y - 0.3f * unit), 0, ImVec2(x / screen.x, 1.0f));
+  } else if (right + room < screen.x) {
     ImGui::SetNextWindowPos(ImVec2(right + 0.3f * unit, y), 0, ImVec2(0.0f, low ? 1.0f : 0.0f));
   } else if (left > room) {
     ImGui::SetNextWindowPos(ImVec2(left - 0.3f * unit, y), 0, ImVec2(1.0f, low ? 1.0f : 0.0f));
@@ -148,6 +152,7 @@ double Controls::limited(const Slider& slider, double value) {
 Controls::Moved Controls::draw(const Slider& slider, double& value, double usual,
                                const std::string& place) {
   Moved moved;
+  if (chosen_) sliders_.push_back(place);
   if (!shows(place)) return moved;
   ImGui::PushID(slider.key);
   ImGui::PushID(slider.name);

@@ -52,6 +52,8 @@ class Controls {
   bool chooses() const { return chosen_.has_value(); }
   /// Whether the control with this name is drawn.
   bool shows(const std::string& name);
+  /// The names of the sliders since the last call, drawn or not.
+  std::vector<std::string> take_sliders() { return std::exchange(sliders_, {}); }
   /// The chosen names without a control since the last call, with the nearest name of a control.
   std::vector<std::pair<std::string, std::string>> take_missing();
 
@@ -96,6 +98,8 @@ class Controls {
            const VecX& shift = {});
 
  private:
+  friend class ChosenControls;
+
   struct Moved {
     bool changed = false;  // the value changed since the last frame
     bool taken = false;    // a drag began
@@ -111,6 +115,7 @@ class Controls {
   Session& session_;
   ScriptLog& log_;
   std::optional<std::vector<std::string>> chosen_;  // absent: all controls are drawn
+  std::vector<std::string> sliders_;                // names since the last take_sliders()
   std::vector<std::string> offered_;  // names asked of shows() since the last take_missing()
   double before_ = 0.0;               // value at the start of the current drag
   std::optional<double> typed_;       // number in the open text field, if it was edited
@@ -118,6 +123,23 @@ class Controls {
   std::string holding_;               // name of that slider; empty: none
   double set_at_ = 0.0;               // time of the last change by a drag, seconds
   std::optional<View> shown_before_;  // view before the current drag
+};
+
+/// Only the controls with the given names are drawn in its life, without headings.
+class ChosenControls {
+ public:
+  ChosenControls(Controls& controls, std::vector<std::string> names)
+      : controls_(controls), former_(std::exchange(controls.chosen_, std::move(names))) {
+    controls_.offered_.clear();
+    controls_.sliders_.clear();
+  }
+  ChosenControls(const ChosenControls&) = delete;
+  ChosenControls& operator=(const ChosenControls&) = delete;
+  ~ChosenControls() { controls_.chosen_ = std::move(former_); }
+
+ private:
+  Controls& controls_;
+  std::optional<std::vector<std::string>> former_;
 };
 
 }  // namespace clatter

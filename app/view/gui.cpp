@@ -23,7 +23,7 @@ static constexpr float kPanelWidth = 17.0f;   // usual width of a panel, in text
 static constexpr float kPanelShare = 0.175f;  // width of a panel over the width of the window
 // A narrower window has sheets: this many text sizes and heights of buttons.
 static constexpr float kNarrowText = 25.0f, kNarrowFrames = 14.0f;
-static constexpr float kLectureLetters = 1.6f;  // scale of the text in lecture mode
+static constexpr float kTextSize = 14.0f;  // usual size of the text, points
 
 Gui::Gui(Host& host, const Gl& gl, WindowInput& input, EngineLink& engine, ScriptLog& log)
     : host_(host),
@@ -44,9 +44,7 @@ void Gui::open(const Scene& scene, std::uint64_t seed, std::optional<double> unt
 
 // Reads the scale of the window and loads the fonts for it.
 void Gui::begin() {
-  constexpr float kTextSize = 14.0f;
-  const float size =
-      std::round((panels_.lecture ? kLectureLetters : 1.0f) * kTextSize * host_.content_scale());
+  const float size = std::round(letters() * kTextSize * host_.content_scale());
   if (size != text_size_) {
     text_size_ = size;
     ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
@@ -54,7 +52,9 @@ void Gui::begin() {
     ImGui::GetIO().FontDefault = const_cast<ImFont*>(add_fonts(atlas, size).text);
     gui_.upload(atlas);
   }
-  apply_style(size, host_.least_target(), panel_theme(shown_view()));
+  constexpr float kTarget = 44.0f;  // points that a finger hits
+  const float target = panels_.lecture ? kTarget * host_.content_scale() : 0.0f;
+  apply_style(size, std::max(host_.least_target(), target), panel_theme(shown_view()));
   scale_ = std::max(1.0f, ImGui::GetIO().DisplayFramebufferScale.x);
   ImGui::NewFrame();
 }
@@ -72,7 +72,11 @@ void Gui::draw() {
   }
   watch_film();
   use_keys();
-  session_.show_profile(panels_.shows_plots() ? profiled_by(profiled()) : Profiled::Nothing,
+  const bool in_lecture = panels_.lecture && !panels_.panels && tools_.plot &&
+                          session_.view().lecture.plot == LecturePlot::Profile;
+  session_.show_profile(panels_.shows_plots() ? profiled_by(profiled())
+                        : in_lecture          ? Profiled::Fields
+                                              : Profiled::Nothing,
                         profile_axis());
   panels();
   viewport();
@@ -87,8 +91,9 @@ void Gui::draw() {
     // Until the engine has opened a scene of another dimension, its view does not fit the frame.
     if (session_.scene().dimension() == session_.frame().scene->dimension()) {
       constexpr double kLeast = 0.8;  // smallest text of the picture, in text sizes of the panels
-      viewport_.draw(session_.frame(), shown_view(), size, panels_.lecture ? kLectureLetters : 1.0,
-                     kLeast * text_size_);
+      // Lecture mode has title and caption in a strip of their own.
+      const bool heading = !panels_.lecture || panels_.panels;
+      viewport_.draw(session_.frame(), shown_view(), size, letters(), kLeast * text_size_, heading);
     }
     viewport_.show(static_cast<int>(area_.low.x * scale_),
                    static_cast<int>((whole.y - area_.high.y) * scale_));
@@ -107,6 +112,7 @@ void Gui::panels() {
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
   area_ = {ImVec2(0, 0), whole};
   if (controls_.chooses()) return chosen_controls();
+  if (panels_.lecture && !panels_.panels) return lecture_panels();
   const float unit = ImGui::GetFontSize();
   panels_.narrow = whole.x < kNarrowText * unit + kNarrowFrames * ImGui::GetFrameHeight();
   if (panels_.narrow) return sheets();
@@ -140,9 +146,10 @@ float Gui::top_panel() {
   ImGui::SetNextWindowPos(ImVec2(0, 0));
   ImGui::SetNextWindowSize(ImVec2(whole.x, top));
   ImGui::Begin("top", nullptr, kFixedPanel | ImGuiWindowFlags_NoScrollbar);
-  top_bar(session_, controls_, panels_);
+  const bool switches = top_bar(session_, controls_, panels_);
   ImGui::End();
   ImGui::PopStyleVar();
+  if (switches) lecture(!panels_.lecture);
   return top;
 }
 
@@ -150,11 +157,9 @@ void Gui::left_panel(float top, float width) {
   ImGui::SetNextWindowPos(ImVec2(0, top));
   ImGui::SetNextWindowSize(ImVec2(width, ImGui::GetIO().DisplaySize.y - top));
   ImGui::Begin("left", nullptr, kFixedPanel);
-  gas_panel(session_, controls_);
-  box_panel(session_, controls_);
-  view_panel(session_, controls_);
-  accuracy_panel(session_, controls_);
+  all_controls();
   record();
+  if (controls_.group("Window")) scale_slider();
   ImGui::End();
 }
 
@@ -172,6 +177,9 @@ void Gui::record() {
       break;
     case Recording::SaveScene:
       save_scene();
+      break;
+    case Recording::RestoreScene:
+      session_.restore();
       break;
     case Recording::CopyLink:
       copy_link();
@@ -270,6 +278,7 @@ void Gui::viewport() {
     const EmbeddedFile* chosen = gallery_.draw(controls_, whole.x, whole.y, panels_.gallery);
     if (chosen) open_gallery_scene(*chosen);
   }
+  ask_about_changes();
   if (panels_.help) help_window(session_.scene().dimension(), whole.x, whole.y);
   if (frame.opening) opening_note(session_, controls_, area_);
   if (!frame.scene) return;
@@ -293,12 +302,13 @@ void Gui::use_viewport() {
                     mouse.y < area_.high.y && !ImGui::GetIO().WantCaptureMouse;
   const WindowMap map = viewport_.map(area_.low, scale_);
   if (log_.on()) log_handles(map);
-  if (const auto resized = wall_grip_.use(map, frame, over)) {
+  if (const auto resized = wall_grip_.use(map, frame, over && !(panels_.lecture && tools_.pen))) {
     controls_.set({{"box.size", value_text(session_.scene().box)}},
                   {{"box.size", value_text(resized->box)}}, resized->shift);
   }
   View view = session_.view();
-  const bool turned = viewport_.use_mouse(frame, view, map, over && !wall_grip_.active());
+  const bool draws = use_pen(over);
+  const bool turned = viewport_.use_mouse(frame, view, map, over && !draws && !wall_grip_.active());
   controls_.show(view, turned);
   session_.pick(viewport_.picked());
 
@@ -308,6 +318,7 @@ void Gui::use_viewport() {
   list.PushClipRect(area_.low, area_.high);
   wall_grip_.mark(list, now, frame);
   viewport_.mark(list, frame, now);
+  paint_ink(list, over);
   list.PopClipRect();
   if (const auto place = viewport_.picked_place(frame, now)) {
     particle_label(frame, *viewport_.picked(), viewport_.follows(), *place, area_);
@@ -333,23 +344,29 @@ void Gui::log_handles(const WindowMap& map) const {
   }
 }
 
-void Gui::lecture(bool on) {
-  if (on) panels_.lesson = panels_.plots = false;
-  panels_.lecture = on;
-  panels_.panels = !on;
-  viewport_.redraw();
+// Scale of the texts of the window. In lecture mode the window keeps room for the gas.
+float Gui::letters() const {
+  if (!panels_.lecture) return static_cast<float>(text_scale_);
+  constexpr float kLetters = 1.6f;                  // usual scale
+  constexpr float kColumns = 39.0f, kRows = 20.0f;  // least size of the window, in text sizes
+  const ImVec2 whole = ImGui::GetIO().DisplaySize;
+  const float most =
+      std::min(whole.x / kColumns, whole.y / kRows) / (kTextSize * host_.content_scale());
+  return std::max(1.0f, std::min(kLetters * static_cast<float>(text_scale_), most));
 }
 
-// The view on screen. Lecture mode always uses the projector theme.
+// The view on screen. Lecture mode has a theme of its own.
 View Gui::shown_view() const {
   View view = session_.view();
-  if (panels_.lecture) view.theme = Theme::Projector;
+  if (panels_.lecture) view.theme = tools_.theme;
   return view;
 }
 
 void Gui::open_gallery_scene(const EmbeddedFile& scene) {
-  panels_.gallery = false;
-  open(load_gallery_scene(scene), session_.frame().seed);
+  before_loss([this, &scene] {
+    panels_.gallery = false;
+    open(load_gallery_scene(scene), session_.frame().seed);
+  });
 }
 
 }  // namespace clatter

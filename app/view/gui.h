@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,11 +12,14 @@
 #include "app/view/gallery.h"
 #include "app/view/history.h"
 #include "app/view/host.h"
+#include "app/view/lecture.h"
 #include "app/view/messages.h"
 #include "app/view/panel_visibility.h"
+#include "app/view/playlist.h"
 #include "app/view/script_log.h"
 #include "app/view/session.h"
 #include "app/view/timeline.h"
+#include "app/view/unsaved_question.h"
 #include "app/view/viewport.h"
 #include "app/view/wall_grip.h"
 #include "app/view/window_input.h"
@@ -29,30 +34,64 @@ class Gui {
 
   /// Starts a scene. With `until` it stops at that simulation time.
   void open(const Scene& scene, std::uint64_t seed, std::optional<double> until = {});
+  /// The scenes that follow each other by keys and buttons, instead of those of the gallery. The
+  /// first one has been opened.
+  void set_playlist(std::vector<PlaylistItem> playlist);
   /// Shows the gas alone and the controls with these names, as in the script log. A message names
   /// those that the scene lacks.
   void embed(std::vector<std::string> controls) { controls_.choose(std::move(controls)); }
   /// Whether a place of the window shows the gas and no panel.
   bool shows_gas(float x, float y) const;
+  /// Whether the gas has changes by hand that no file has.
+  bool unsaved() const { return session_.unsaved(); }
+  /// Whether the window may close now. With unsaved changes it asks the user first, and closes
+  /// after the answer.
+  bool may_close();
   /// Shows a message.
   void tell(const std::string& message) { session_.tell(message); }
   /// Handles the input and draws the next picture of the window.
   void draw();
   /// True while the window redraws without input: a film or pictures of the gallery are being made,
-  /// or a message is shown.
+  /// a message is shown, or the tools of a lecture change.
   bool changes() const {
-    return film_.has_value() || message_.shown() || (panels_.gallery && gallery_.busy());
+    return film_.has_value() || message_.shown() || (panels_.gallery && gallery_.busy()) ||
+           (panels_.lecture && tools_.changes());
   }
 
  private:
   void begin();
   void use_keys();
+  void before_loss(std::function<void()> action);
+  void ask_about_changes();
+  void answer_question(Answer answer);
+  void use_question_key(const KeyPress& press);
   void use_function_key(const KeyPress& press);
   void use_key(const KeyPress& press);
   void use_control_key(const KeyPress& press);
   void use_signs();
+  bool use_lecture_key(char key);
   void close_something();
   void lecture(bool on);
+  void all_controls();
+  std::vector<std::string> lecture_sliders() const;
+  void lecture_panels();
+  float caption_strip();
+  void lecture_column();
+  float slider_height(const std::string& name) const;
+  float sliders_height(const std::vector<std::string>& names, std::size_t columns) const;
+  void draw_sliders(const std::vector<std::string>& names, std::size_t columns);
+  float lecture_bar();
+  void stopwatch_button();
+  void press_stopwatch();
+  void toggle_pen();
+  void lecture_settings();
+  bool choose_sliders(Lecture& lecture);
+  bool choose_lecture_plot(Lecture& lecture);
+  void scale_slider();
+  bool use_pen(bool over);
+  void paint_ink(ImDrawList& list, bool over) const;
+  void step_scene(int step);
+  float letters() const;
   View shown_view() const;
   void panels();
   float top_panel();
@@ -108,13 +147,21 @@ class Gui {
   std::optional<ScreenFilm> screen_film_;
   GuiLayer gui_;
   PanelVisibility panels_;
+  LectureTools tools_;
+  std::map<std::string, float> slider_heights_;  // of the controls in lecture mode, pixels
+  std::vector<PlaylistItem> playlist_;           // empty: the scenes of the gallery
+  std::size_t at_ = 0;                           // of the scene in the playlist
   MessageNote message_;
+  std::function<void()> delayed_;  // action after the question about unsaved changes; empty: none
   std::string title_;              // title of the window; empty: name of the program
   std::uint64_t drawn_views_ = 0;  // Session::views() at the last picture
   bool told_gallery_ = false;      // the script log has the gallery as open
   float text_size_ = 0.0f;         // size of the loaded fonts, pixels; 0: none
   float scale_ = 1.0f;             // pixels per window unit
   Area area_;                      // area of the viewport
+  double wanted_scale_ = 1.0, text_scale_ = 1.0;  // of the slider, and of the texts
+  float plot_heading_ = 0.0f;      // height of title and legend of the plot in lecture mode, pixels
+  float bar_height_ = 0.0f;        // of the bar in lecture mode, pixels
   float strip_ = 0.0f;             // height of the strip with the chosen controls, pixels
   std::uint64_t checked_run_ = 0;  // run whose panels had the chosen controls
 };

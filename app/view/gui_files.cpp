@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "app/runs/picture_scene.h"
 #include "app/system/exit_code.h"
@@ -21,10 +22,41 @@ namespace clatter {
 // Opens a scene file, or a picture of clatter, which contains its scene.
 void Gui::open_file(const std::string& file) {
   try {
-    open(load_any_scene(file), seed_of_picture(file).value_or(session_.frame().seed));
+    const std::uint64_t seed = seed_of_picture(file).value_or(session_.frame().seed);
+    before_loss([this, scene = load_any_scene(file), seed] { open(scene, seed); });
   } catch (const std::exception& error) {
     session_.tell(error.what());
   }
+}
+
+// Does something by which unsaved changes are lost, after a question if there are any. In a lecture
+// there is no question: undo returns to the former scene.
+void Gui::before_loss(std::function<void()> action) {
+  if (!session_.unsaved() || panels_.lecture) return action();
+  delayed_ = std::move(action);
+}
+
+bool Gui::may_close() {
+  if (!session_.unsaved()) return true;
+  delayed_ = [this] {
+    session_.set_saved();
+    host_.close();
+  };
+  return false;
+}
+
+void Gui::ask_about_changes() {
+  if (delayed_) answer_question(unsaved_question(controls_, session_.opened().title));
+}
+
+void Gui::answer_question(Answer answer) {
+  if (answer == Answer::None) return;
+  const std::function<void()> action = std::exchange(delayed_, nullptr);
+  if (answer == Answer::Save) save_scene();
+  // A scene that could not be saved stays.
+  const bool acts = answer == Answer::Discard || !session_.unsaved();
+  log_.event("answer", {{"acts", acts}});
+  if (acts) action();
 }
 
 // The first free name: "clatter-1.png", "clatter-2.png", ... All extensions must be free, because a
@@ -59,6 +91,7 @@ void Gui::screenshot() {
     const Scene scene = recorded_beside(name);
     write_png(name, viewport_.picture(), picture_texts(scene, session_.frame().seed));
     host_.deliver(name);
+    session_.set_saved();
     log_.event("screenshot", {{"file", name}});
     session_.tell("Screenshot: " + name);
   } catch (const std::exception& error) {
@@ -72,6 +105,7 @@ std::string Gui::save_scene() {
     const std::string name = free_name(".toml");
     write_file(name, scene_to_toml(recorded_beside(name)));
     host_.deliver(name);
+    session_.set_saved();
     log_.event("saved", {{"file", name}});
     session_.tell("Saved: " + name);
     return name;

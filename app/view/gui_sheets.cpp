@@ -94,6 +94,7 @@ void Gui::sheet() {
       break;
     case Sheet::View:
       view_panel(session_, controls_);
+      scale_slider();
       break;
     case Sheet::Record:
       record();
@@ -124,10 +125,7 @@ void Gui::chosen_controls() {
   ImGui::Begin("chosen", nullptr, kFixedPanel);
   const float start = ImGui::GetCursorPosY();
   play_row(session_, controls_);
-  gas_panel(session_, controls_);
-  box_panel(session_, controls_);
-  view_panel(session_, controls_);
-  accuracy_panel(session_, controls_);
+  all_controls();
   record();
   const float end = ImGui::GetCursorPosY();
   const bool empty = end == start;

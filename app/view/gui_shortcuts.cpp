@@ -17,10 +17,20 @@ namespace clatter {
 void Gui::use_keys() {
   for (const std::string& file : input_.take_dropped()) open_file(file);
   for (const KeyPress& press : input_.take_presses()) {
+    if (delayed_) {
+      use_question_key(press);
+      continue;
+    }
     use_function_key(press);
     if (!ImGui::GetIO().WantTextInput) use_key(press);
   }
-  if (!ImGui::GetIO().WantTextInput) use_signs();
+  if (!ImGui::GetIO().WantTextInput && !delayed_) use_signs();
+}
+
+void Gui::use_question_key(const KeyPress& press) {
+  if (press.key != GLFW_KEY_ESCAPE && press.key != GLFW_KEY_ENTER) return;
+  ImGui::ClosePopupToLevel(0, true);
+  answer_question(press.key == GLFW_KEY_ENTER ? Answer::Save : Answer::Cancel);
 }
 
 void Gui::use_function_key(const KeyPress& press) {
@@ -66,6 +76,7 @@ void Gui::use_key(const KeyPress& press) {
     default:
       break;
   }
+  if (panels_.lecture && use_lecture_key(press.letter)) return;
   switch (press.letter) {
     case 'b':
       return session_.frame().backwards ? session_.play(true) : session_.play_backwards();
@@ -80,6 +91,10 @@ void Gui::use_key(const KeyPress& press) {
     case 'm':
       return fix_range();
     case 'p':
+      if (panels_.lecture && !panels_.panels) {
+        tools_.plot = !tools_.plot;
+        return;
+      }
       return panels_.toggle(Sheet::Plots);
     case 'r':
       return press.shift ? session_.restart_with_new_seed() : session_.restart();
@@ -87,6 +102,23 @@ void Gui::use_key(const KeyPress& press) {
       return panels_.toggle(Sheet::Lesson);
     default:
       return face_preset(press.letter);
+  }
+}
+
+// The keys of the tools in lecture mode. Returns whether the key is one of them.
+bool Gui::use_lecture_key(char key) {
+  switch (key) {
+    case 'd':
+      toggle_pen();
+      return true;
+    case 'k':
+      tools_.pointer = !tools_.pointer;
+      return true;
+    case 'w':
+      press_stopwatch();
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -112,8 +144,8 @@ void Gui::use_signs() {
     const double speed = session_.frame().speed;
     if (sign == '+' || sign == '=') session_.set_speed(speed * std::sqrt(2.0));
     if (sign == '-') session_.set_speed(speed / std::sqrt(2.0));
-    if (sign == '[') open_gallery_scene(gallery_.neighbour(session_.opened().title, -1));
-    if (sign == ']') open_gallery_scene(gallery_.neighbour(session_.opened().title, +1));
+    if (sign == '[') step_scene(-1);
+    if (sign == ']') step_scene(1);
   }
 }
 
@@ -122,7 +154,7 @@ void Gui::close_something() {
   if (session_.frame().opening && session_.frame().run > 0) return session_.cancel_open();
   // Dear ImGui ends the typing of a number.
   if (ImGui::GetIO().WantTextInput && !panels_.gallery) return;
-  for (bool* open : {&panels_.gallery, &panels_.help, &panels_.plots}) {
+  for (bool* open : {&panels_.gallery, &panels_.help, &tools_.settings, &panels_.plots}) {
     if (!*open) continue;
     *open = false;
     return;

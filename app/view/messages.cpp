@@ -137,7 +137,7 @@ struct KeyLine {
   bool spheres_only = false;
 };
 
-constexpr std::array<KeyLine, 28> kKeys = {{
+constexpr std::array<KeyLine, 29> kKeys = {{
     {"Space", "play or pause"},
     {"B", "play backwards, or forwards again"},
     {".  ,", "next frame, previous frame"},
@@ -156,7 +156,8 @@ constexpr std::array<KeyLine, 28> kKeys = {{
     {"T", "goal and suggestions of the scene"},
     {"M", "colour range of the particles: fixed or automatic"},
     {"Tab", "hide or show the panels"},
-    {"L", "lecture: for a projector, large type, panels hidden"},
+    {"L", "lecture: large type, three sliders and a plot"},
+    {"D  K  W", "lecture: pen, pointer with a trail, stopwatch"},
     {"F11", "full screen"},
     {"Esc", "close the open panel, or deselect the particle"},
     {"Drag", "turn the view", true},

@@ -32,6 +32,7 @@ enum class Recording {
   None,
   Screenshot,
   SaveScene,
+  RestoreScene,
   CopyLink,
   CopyCommand,
   Film,

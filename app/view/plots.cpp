@@ -244,4 +244,23 @@ std::vector<LivePlot> plots_of(const History& history, const Frame& frame, std::
   return plots;
 }
 
+std::optional<LivePlot> lecture_plot(LecturePlot which, const History& history, const Frame& frame,
+                                     std::size_t profiled, const ThemeColours& theme) {
+  const std::vector<Sample>& samples = history.samples();
+  switch (which) {
+    case LecturePlot::None:
+      break;
+    case LecturePlot::Temperature:
+      return temperature_plot(samples, *frame.scene, theme.text);
+    case LecturePlot::Energy:
+      return energy_plot(samples, static_cast<double>(frame.snapshot.count()), theme.text);
+    case LecturePlot::Velocities:
+      return velocity_plot(history.velocities(), frame.scene->dimension(), theme.text);
+    case LecturePlot::Profile:
+      if (!frame.profile || profiled >= frame.profile->fields.size()) break;
+      return profile_plot(*frame.profile, profiled, *frame.scene);
+  }
+  return std::nullopt;
+}
+
 }  // namespace clatter

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "app/view/history.h"
@@ -22,5 +23,9 @@ Profiled profiled_by(std::size_t name);
 /// have the text colour of the theme.
 std::vector<LivePlot> plots_of(const History& history, const Frame& frame, std::size_t profiled,
                                const ThemeColours& theme);
+
+/// The plot of lecture mode. Absent: there is none, or the frame lacks its data.
+std::optional<LivePlot> lecture_plot(LecturePlot which, const History& history, const Frame& frame,
+                                     std::size_t profiled, const ThemeColours& theme);
 
 }  // namespace clatter

@@ -27,6 +27,10 @@ Recording record_panel(Controls& controls, Films films, std::optional<double> fi
   if (controls.button("save", "Save scene", "The scene with all changes so far (Ctrl+S)", width)) {
     asked = Recording::SaveScene;
   }
+  if (controls.button("restore", "Restore scene",
+                      "Starts the scene as it was opened (Ctrl+Z returns to the changes)", width)) {
+    asked = Recording::RestoreScene;
+  }
   if (films != Films::OfRun) {
     if (films == Films::OfScreen) {
       const Recording film = film_of_screen(controls, filmed, width);

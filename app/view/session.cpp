@@ -96,7 +96,7 @@ void Session::open(const Scene& scene, std::uint64_t seed, bool plays) {
     if (!done_.empty() && done_.back().scenes.empty()) {
       tell(fmt::format("Ctrl+Z returns to {} with its changes", opened_.title));
     }
-    remember({.scenes = {{restarted(), opened_, seed_}, now}});
+    remember({.scenes = {{restarted(), opened_, seed_, unsaved_}, now}});
   }
   start(now, "open");
 }
@@ -108,6 +108,7 @@ void Session::start(const OpenedScene& opened, const char* event) {
   scene_ = opened.scene;
   opened_ = opened.opened;
   seed_ = opened.seed;
+  unsaved_ = opened.unsaved;
   view_ = scene_.view;
   speed_ = view_.speed;
   ++views_;
@@ -148,14 +149,14 @@ void Session::restart() {
 }
 
 void Session::switch_dimension() {
-  const OpenedScene before{restarted(), opened_, seed_};
+  const OpenedScene before{restarted(), opened_, seed_, unsaved_};
   try {
     const auto [scene, removed] = change_dimension(before.scene, 5 - before.scene.dimension());
     if (!removed.empty()) {
       tell(fmt::format("Without meaning for {}, and removed: {}; Ctrl+Z restores the former scene",
                        scene.dimension() == 2 ? "disks" : "spheres", fmt::join(removed, ", ")));
     }
-    remember({.scenes = {before, {scene, scene, seed_}}});
+    remember({.scenes = {before, {scene, scene, seed_, true}}});
   } catch (const UserError& error) {
     tell(error.problem() + "; " + error.advice());
     return;
@@ -249,6 +250,7 @@ void Session::go_to_head() {
 void Session::move_change(std::size_t number, double time) {
   log_.event("move_change", {{"number", number}, {"to", time}, {"command", sent_ + 1}});
   send(command::MoveChange{number, time});
+  unsaved_ = true;
   remember({.fork = ++forks_});
 }
 
@@ -260,6 +262,7 @@ void Session::exchange_futures() {
 void Session::send_exchange() {
   log_.event("exchange_futures", {{"command", sent_ + 1}});
   send(command::ExchangeFutures{});
+  unsaved_ = true;
 }
 
 void Session::set_speed(double speed) {
@@ -271,7 +274,7 @@ void Session::set_speed(double speed) {
 void Session::set(const std::vector<Override>& settings, const VecX& shift) {
   try {
     scene_ = with_settings(scene_, settings);
-    wishes_ = true;
+    wishes_ = unsaved_ = true;
   } catch (const UserError& error) {
     tell(error.problem() + "; " + error.advice());
     return;
@@ -300,7 +303,10 @@ void Session::remember(Edit edit) {
 }
 
 void Session::apply(Edit& edit, bool again) {
-  if (!edit.scenes.empty()) start(edit.scenes[again ? 1 : 0], "open");
+  if (!edit.scenes.empty()) {
+    edit.scenes[again ? 0 : 1].unsaved = unsaved_;
+    start(edit.scenes[again ? 1 : 0], "open");
+  }
   if (edit.fork > 0 && edit.fork == forks_ && frame().other_future) {
     send_exchange();
   } else if (!edit.after.empty()) {

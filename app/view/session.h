@@ -15,6 +15,7 @@ struct OpenedScene {
   Scene scene;
   Scene opened;
   std::uint64_t seed = 1;
+  bool unsaved = false;  ///< see Session::unsaved()
 };
 
 /// One entry of the undo history.
@@ -56,6 +57,8 @@ class Session {
   /// Restarts the scene with the current laws. A scene with scheduled changes restarts with the
   /// laws it was opened with.
   void restart();
+  /// Starts the scene as it was opened. Undo starts it with its changes.
+  void restore() { open(opened_, seed_, plays_); }
   /// Calls restart() with the next seed.
   void restart_with_new_seed();
   /// Starts the scene in the other dimension, with disks or spheres, see change_dimension(). Undo
@@ -103,6 +106,11 @@ class Session {
   void undo();
   /// Applies the last reverted entry again.
   void redo();
+
+  /// Whether changes of the gas by hand would be lost with it.
+  bool unsaved() const { return unsaved_; }
+  /// The changes so far are in a file, or given up.
+  void set_saved() { unsaved_ = false; }
 
   /// Sets the view. Another field restarts the averages. Trails make the engine record flights.
   void set_view(const View& view);
@@ -160,6 +168,7 @@ class Session {
   std::vector<Edit> done_;
   std::vector<Edit> undone_;
   std::uint64_t forks_ = 0;  // changes in the past; the last one has the present two futures
+  bool unsaved_ = false;     // changes by hand that no file has
   bool forked_ = false;      // since the last entry of the undo history
   std::string message_;
   std::uint64_t told_ = 0;

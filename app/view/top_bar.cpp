@@ -138,13 +138,14 @@ void play_row(Session& session, Controls& controls) {
   step_row(session, controls);
 }
 
-void top_bar(Session& session, Controls& controls, PanelVisibility& shown) {
+bool top_bar(Session& session, Controls& controls, PanelVisibility& shown) {
   if (shown.narrow) {
     const float icon = 1.35f * ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x;
     gallery_button(session, controls, shown, ImGui::GetContentRegionMax().x - 3.0f * icon);
     play_button(session, controls);
     reset_button(session, controls);
-    return figures(session.frame(), controls);
+    figures(session.frame(), controls);
+    return false;
   }
   gallery_button(session, controls, shown, FLT_MAX);
   play_button(session, controls);
@@ -157,9 +158,12 @@ void top_bar(Session& session, Controls& controls, PanelVisibility& shown) {
     shown.toggle(Sheet::Lesson);
   }
   ImGui::SameLine();
+  const bool lectures = controls.button("lecture", "Lecture", "Large type, for a projector (L)");
+  ImGui::SameLine();
   if (controls.button("help", "?", "Keys and mouse (F1)")) shown.toggle_help();
   ImGui::SameLine();
   figures(session.frame(), controls);
+  return lectures;
 }
 
 }  // namespace clatter

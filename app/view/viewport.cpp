@@ -10,7 +10,8 @@
 
 namespace clatter {
 
-void Viewport::draw(const Frame& frame, const View& view, Size size, double letters, double least) {
+void Viewport::draw(const Frame& frame, const View& view, Size size, double letters, double least,
+                    bool heading) {
   if (!canvas_ || canvas_->size().width != size.width || canvas_->size().height != size.height) {
     canvas_.emplace(*gl_, size);
     stale_ = true;
@@ -23,7 +24,8 @@ void Viewport::draw(const Frame& frame, const View& view, Size size, double lett
   }
   if (!stale_) return;
   stale_ = false;
-  const OverlayText text{frame.scene->title, frame.scene->caption, 0.0, letters, least};
+  const OverlayText text{heading ? frame.scene->title : "", heading ? frame.scene->caption : "",
+                         0.0, letters, least};
   if (fits_) camera_ = renderer_.fit(gas, size, view, text);
   if (gas.box.size() == 3) {
     camera_.orbit.azimuth = view.azimuth;

@@ -17,8 +17,10 @@ class Viewport {
   explicit Viewport(const Gl& gl) : gl_(&gl), renderer_(gl) {}
 
   /// Draws a frame off screen at `size` pixels if anything has changed. `letters` scales the text
-  /// relative to films, and `least` is its smallest size in pixels.
-  void draw(const Frame& frame, const View& view, Size size, double letters, double least);
+  /// relative to films, and `least` is its smallest size in pixels. With `heading` the picture has
+  /// title and caption.
+  void draw(const Frame& frame, const View& view, Size size, double letters, double least,
+            bool heading);
   /// Copies the picture to the window. (x, y) is its lower left corner in pixels of the window.
   void show(int x, int y) const;
   /// Size of the picture, pixels. Requires drawn().

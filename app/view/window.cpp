@@ -105,10 +105,15 @@ static void show(const WindowOptions& options) {
   Worker worker(rate, [] { glfwPostEmptyEvent(); });
   {
     Gui gui(desktop, context.gl(), input, worker, log);
+    gui.set_playlist(options.playlist);
     gui.open(options.scene, options.seed, options.until);
     // Panels need several pictures after an event to settle.
     constexpr int kSettle = 4;
-    for (int left = kSettle; !glfwWindowShouldClose(window); left = left > 0 ? left - 1 : kSettle) {
+    for (int left = kSettle;; left = left > 0 ? left - 1 : kSettle) {
+      if (glfwWindowShouldClose(window)) {
+        if (gui.may_close()) break;
+        glfwSetWindowShouldClose(window, GLFW_FALSE);
+      }
       const auto began = RealClock::now();
       glfwPollEvents();
       ImGui_ImplGlfw_NewFrame();

@@ -2,7 +2,9 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "app/view/playlist.h"
 #include "engine/scene/scene.h"
 #include "render/camera.h"
 
@@ -12,9 +14,10 @@ namespace clatter {
 struct WindowOptions {
   Scene scene;
   std::uint64_t seed = 1;
-  Size size = {1280, 800};      ///< size in screen units
-  std::optional<double> until;  ///< simulation time at which the gas pauses; absent: none
-  std::string script_log;       ///< file for the log of events, see ScriptLog; empty: none
+  Size size = {1280, 800};             ///< size in screen units
+  std::optional<double> until;         ///< simulation time at which the gas pauses; absent: none
+  std::vector<PlaylistItem> playlist;  ///< empty: none; its first scene is `scene`
+  std::string script_log;              ///< file for the log of events, see ScriptLog; empty: none
 };
 
 /// Shows a scene in a window until the window is closed. Throws RunError if there is no display, no

@@ -86,6 +86,8 @@ class Page {
     gui_.embed(std::move(controls));
   }
 
+  bool unsaved() const { return gui_.unsaved(); }
+
   bool shows_gas(float x, float y) const { return gui_.shows_gas(x, y); }
 
   void resize(float width, float height) {
@@ -233,6 +235,10 @@ EMSCRIPTEN_KEEPALIVE void clatter_resize(double width, double height) {
 EMSCRIPTEN_KEEPALIVE void clatter_point(double x, double y, int buttons, double wheel) {
   page->point(static_cast<float>(x), static_cast<float>(y), buttons, static_cast<float>(wheel));
 }
+// Whether the gas has changes by hand that no file has.
+EMSCRIPTEN_KEEPALIVE int clatter_unsaved() {
+  return page->unsaved();
+}
 // Whether a place shows the gas and no panel.
 EMSCRIPTEN_KEEPALIVE int clatter_shows_gas(double x, double y) {
   return page->shows_gas(static_cast<float>(x), static_cast<float>(y));
@@ -252,6 +258,10 @@ EMSCRIPTEN_KEEPALIVE void clatter_key(int key, int letter, int shift, int ctrl, 
 }
 EMSCRIPTEN_KEEPALIVE void clatter_type(const char* text) {
   page->type(text);
+}
+// Whether a field for text has the focus.
+EMSCRIPTEN_KEEPALIVE int clatter_wants_text() {
+  return ImGui::GetIO().WantTextInput;
 }
 EMSCRIPTEN_KEEPALIVE void clatter_drop(const char* path) {
   page->drop(path);

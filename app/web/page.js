@@ -3,6 +3,7 @@
 'use strict';
 
 const canvas = document.getElementById('canvas');
+const keys = document.getElementById('keys');
 const note = document.getElementById('note');
 const finger = matchMedia('(pointer: coarse)');
 const query = new URLSearchParams(location.search);
@@ -184,6 +185,7 @@ function lift_finger(x, y) {
   if (touch.does === 'nothing yet') point(x, y, 1);
   point(x, y, 0);
   touch = null;
+  show_keyboard();
 }
 
 function on_touch(event) {
@@ -255,6 +257,39 @@ function on_key(event) {
   if (code && own && !event.altKey && event.code !== 'F11') event.preventDefault();
 }
 
+// ---- the keyboard of touch screens ----
+
+// It edits an invisible field. The edits are repeated in the field of the window, because such
+// keyboards have no codes of keys and replace whole words.
+let typed = '';  // content of the invisible field that has been repeated
+
+// Browsers show the keyboard during a touch only, so pictures are drawn until the touched field of
+// the window has the focus.
+function show_keyboard() {
+  const pictures = 3;
+  for (let k = 0; k < pictures; ++k) draw();
+  if (!Module._clatter_wants_text()) return canvas.focus();
+  keys.value = typed = ' '.repeat(100);  // for the key Backspace
+  keys.focus();
+}
+
+function press(code) {
+  for (const down of [1, 0]) {
+    Module._clatter_key(code, 0, false, false, down, false);
+    draw();
+  }
+}
+
+function on_input() {
+  const text = keys.value;
+  let same = 0;
+  while (same < Math.min(text.length, typed.length) && text[same] === typed[same]) ++same;
+  for (let k = same; k < typed.length; ++k) press(special.Backspace);
+  text_of('clatter_type', text.slice(same));
+  typed = text;
+  wake();
+}
+
 // ---- dropped scenes and pictures ----
 
 async function on_drop(event) {
@@ -298,6 +333,7 @@ function start() {
   }
   canvas.addEventListener('wheel', on_wheel, {passive: false});
   canvas.addEventListener('contextmenu', (event) => event.preventDefault());
+  keys.addEventListener('input', on_input);
   addEventListener('keydown', on_key);
   addEventListener('keyup', on_key);
   addEventListener('dragover', (event) => event.preventDefault());
@@ -305,6 +341,10 @@ function start() {
   addEventListener('hashchange', () => {
     text_of('clatter_open', fragment(), until());
     wake();
+  });
+  // The browser asks before it leaves a page with unsaved changes. An embedded gas has no files.
+  addEventListener('beforeunload', (event) => {
+    if (ready && !query.has('embed') && Module._clatter_unsaved()) event.preventDefault();
   });
   canvas.addEventListener('webglcontextlost', () => {
     ready = false;

@@ -138,7 +138,8 @@ void EventLoop<D>::load(const ParticleStates<D>& gas, const Subdomain<D>& subdom
   }
   queue_.order_by(record.numbers.data());
   prediction_.order_by(record.numbers.data());
-  plan();
+  Preparation work;
+  plan(work, {});
 }
 
 template <int D>
@@ -168,37 +169,39 @@ void EventLoop<D>::save_to(RunState<D>& saved) const {
 }
 
 template <int D>
-void EventLoop<D>::place(const StopRequest& stop) {
-  plans_.resize(gas_.particles.size());
-  place_once(stop);
-  if (near_.fit(plans_)) place_once(stop);
+bool EventLoop<D>::place(Preparation& work, const StopRequest& pause) {
+  const std::size_t count = gas_.particles.size();
+  const auto put = [this](std::size_t i) { put_into_cell(i); };
+  plans_.resize(count);
+  if (!work.placing.advance(count, pause, put)) return false;
+  if (!std::exchange(work.fitted, true) && near_.fit(plans_)) work.fitted_placing.emplace();
+  return !work.fitted_placing || work.fitted_placing->advance(count, pause, put);
 }
 
 template <int D>
-void EventLoop<D>::place_once(const StopRequest& stop) {
-  for (std::uint32_t i = 0; i < gas_.particles.size(); ++i) {
-    stop.check();
-    const Vec<D> r = gas_.particles[i].flight.at(now_, model_.gravity);
-    if (!is_inside<D>(model_, r)) {
-      throw PhysicalStop("particle " + std::to_string(i) + " is outside of the box at the start");
-    }
-    const Vec<D> image = model_.image_index(r);
-    gas_.particles.set_image(i, image);
-    plans_[i].cell = near_.place(i, r - image.cwiseProduct(model_.box));
+void EventLoop<D>::put_into_cell(std::size_t number) {
+  const auto i = static_cast<std::uint32_t>(number);
+  const Vec<D> r = gas_.particles[i].flight.at(now_, model_.gravity);
+  if (!is_inside<D>(model_, r)) {
+    throw PhysicalStop("particle " + std::to_string(i) + " is outside of the box at the start");
   }
+  const Vec<D> image = model_.image_index(r);
+  gas_.particles.set_image(i, image);
+  plans_[i].cell = near_.place(i, r - image.cwiseProduct(model_.box));
 }
 
 template <int D>
-void EventLoop<D>::plan(const StopRequest& stop) {
-  std::vector<Event> events;
-  events.reserve(gas_.particles.size());
-  for (std::uint32_t i = 0; i < gas_.particles.size(); ++i) {
-    stop.check();
-    prediction_.plan({i, &plans_[i]}, now_);
-    const Plan<D>& plan = plans_[i];
-    if (plan.time < kNever) events.push_back({plan.time, i, plan.partner});
-  }
-  queue_.rebuild(events);
+bool EventLoop<D>::plan(Preparation& work, const StopRequest& pause) {
+  const auto plan_next = [&](std::size_t number) {
+    const auto i = static_cast<std::uint32_t>(number);
+    Plan<D>& plan = plans_[i];
+    prediction_.plan({i, &plan}, now_);
+    if (plan.time < kNever) work.events.push_back({plan.time, i, plan.partner});
+  };
+  work.events.reserve(gas_.particles.size());
+  if (!work.planning.advance(gas_.particles.size(), pause, plan_next)) return false;
+  queue_.rebuild(work.events);
+  return true;
 }
 
 // Predictions are repeated, not shifted. So every contact time remains a function of the two stored
@@ -217,12 +220,13 @@ void EventLoop<D>::move_base() {
 
 template <int D>
 void EventLoop<D>::plan_again() {
+  Preparation work;
   if (plans_.empty()) {
-    place();
+    place(work, {});
   } else if (near_.fit(plans_)) {
-    place_once({});
+    for (std::size_t i = 0; i < gas_.particles.size(); ++i) put_into_cell(i);
   }
-  plan();
+  plan(work, {});
 }
 
 template <int D>
@@ -337,24 +341,30 @@ void EventLoop<D>::process(Event event) {
 }
 
 template <int D>
-double EventLoop<D>::deepest_overlap(const StopRequest& stop) const {
+bool EventLoop<D>::compare(Preparation& work, const StopRequest& pause) const {
+  return work.comparing.advance(gas_.particles.size(), pause, [&](std::size_t i) {
+    work.deepest_overlap = std::max(work.deepest_overlap, deepest_overlap_of(i));
+  });
+}
+
+// Deepest overlap of a particle with those of higher numbers and with walls.
+template <int D>
+double EventLoop<D>::deepest_overlap_of(std::size_t number) const {
+  const auto i = static_cast<std::uint32_t>(number);
   double deepest = 0.0;
-  for (std::uint32_t i = 0; i < gas_.particles.size(); ++i) {
-    stop.check();
-    const Vec<D> r = gas_.particles[i].flight.at(now_, model_.gravity);
-    near_.visit(i, plans_[i].cell, [&](std::uint32_t j, const Vec<D>& wrap) {
-      if (j <= i) return;
-      const Vec<D> image = gas_.particles.image(j) - gas_.particles.image(i) - wrap;
-      const Vec<D> x =
-          r - gas_.particles[j].flight.at(now_, model_.gravity) + image.cwiseProduct(model_.box);
-      deepest = std::max(deepest, 1.0 - x.norm() / model_.diameter);
-    });
-    for (int side = 0; side < 2 * D; ++side) {
-      if (!model_.walls[side]) continue;
-      const double place = boundary_.touching_place(side, now_);
-      const double beyond = Boundary<D>::inward(side) * (place - r[side / 2]);
-      deepest = std::max(deepest, beyond / model_.diameter);
-    }
+  const Vec<D> r = gas_.particles[i].flight.at(now_, model_.gravity);
+  near_.visit(i, plans_[i].cell, [&](std::uint32_t j, const Vec<D>& wrap) {
+    if (j <= i) return;
+    const Vec<D> image = gas_.particles.image(j) - gas_.particles.image(i) - wrap;
+    const Vec<D> x =
+        r - gas_.particles[j].flight.at(now_, model_.gravity) + image.cwiseProduct(model_.box);
+    deepest = std::max(deepest, 1.0 - x.norm() / model_.diameter);
+  });
+  for (int side = 0; side < 2 * D; ++side) {
+    if (!model_.walls[side]) continue;
+    const double place = boundary_.touching_place(side, now_);
+    const double beyond = Boundary<D>::inward(side) * (place - r[side / 2]);
+    deepest = std::max(deepest, beyond / model_.diameter);
   }
   return deepest;
 }

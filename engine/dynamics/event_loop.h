@@ -13,6 +13,7 @@
 #include "engine/dynamics/neighbourhood.h"
 #include "engine/dynamics/observer.h"
 #include "engine/dynamics/particle_states.h"
+#include "engine/dynamics/pausing_loop.h"
 #include "engine/dynamics/prediction.h"
 #include "engine/dynamics/prefetch.h"
 #include "engine/dynamics/run_state.h"
@@ -48,11 +49,21 @@ class EventLoop {
   void load(const ParticleStates<D>& gas, const Subdomain<D>& subdomain, TileRecord<D>& record,
             double time);
 
-  /// Puts all particles into cells. Throws PhysicalStop if a particle is outside of the box. Throws
-  /// Interrupted.
-  void place(const StopRequest& stop = {});
-  /// Plans the next event of every particle. Throws Interrupted.
-  void plan(const StopRequest& stop = {});
+  /// Work of place(), compare() and plan() that has been done.
+  struct Preparation {
+    PausingLoop placing, comparing, planning;
+    std::optional<PausingLoop> fitted_placing;  ///< into cells that fit the crowding, if others do
+    bool fitted = false;                        ///< whether the crowding is known
+    double deepest_overlap = 0.0;               ///< as of Simulation::deepest_overlap
+    std::vector<Event> events;                  ///< the plans so far
+  };
+  /// Puts all particles into cells. Returns false at a request to pause. Throws PhysicalStop if a
+  /// particle is outside of the box.
+  bool place(Preparation& work, const StopRequest& pause);
+  /// Finds the deepest overlap of particles in cells. Returns false at a request to pause.
+  bool compare(Preparation& work, const StopRequest& pause) const;
+  /// Plans the next event of every particle. Returns false at a request to pause.
+  bool plan(Preparation& work, const StopRequest& pause);
   /// Processes events up to and at a time on the base. Halts earlier once the counts have reached
   /// so many collisions or steps, or when the base is due to move. Also halts at a particle whose
   /// speed diverges and at inelastic collapse.
@@ -110,8 +121,6 @@ class EventLoop {
   const RunChecks& checks() const { return checks_; }
   /// Detects collapse; absent if the gas cannot collapse or diverge.
   const std::optional<Watchdog>& watchdog() const { return watchdog_; }
-  /// See Simulation::deepest_overlap.
-  double deepest_overlap(const StopRequest& stop) const;
 
  private:
   struct Motion {
@@ -134,7 +143,8 @@ class EventLoop {
   [[gnu::always_inline]] inline void renew_flight(std::uint32_t number, const Vec<D>& position,
                                                   const Vec<D>& velocity);
   [[gnu::always_inline]] inline void schedule(std::uint32_t particle);
-  void place_once(const StopRequest& stop);
+  void put_into_cell(std::size_t number);
+  double deepest_overlap_of(std::size_t number) const;
   bool is_current(const Event& event) const;
   void prefetch_ahead();
   template <typename Visit>

@@ -114,6 +114,16 @@ static void restart_changed_flights(const Model<D>& model, RunState<D>& saved) {
 
 template <int D>
 Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved, const StopRequest& stop)
+    : Simulation(InParts(), model, std::move(saved)) {
+  if (!prepare(stop)) throw Interrupted();
+}
+
+template <int D>
+Simulation<D>::Simulation(InParts, const Model<D>& model, State<D> state, double start_time)
+    : Simulation(InParts(), model, fresh<D>(model, std::move(state), start_time)) {}
+
+template <int D>
+Simulation<D>::Simulation(InParts, const Model<D>& model, RunState<D> saved)
     : model_(model),
       clock_(saved.base),
       boundary_(model_, clock_, phase_shifts<D>(model_, saved)),
@@ -125,13 +135,22 @@ Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved, const StopRe
     kick_origin_ = time();
     kicks_since_origin_ = 0;
   }
-  loop_.place(stop);
+  preparation_ = std::make_unique<Preparation>(Preparation{std::move(saved), {}});
+}
+
+template <int D>
+bool Simulation<D>::prepare(const StopRequest& pause) {
+  if (!preparation_) return true;
+  auto& [saved, work] = *preparation_;
+  if (!loop_.place(work, pause) || !loop_.compare(work, pause)) return false;
   // Overlaps that the run has already accepted at contacts are accepted at a restart too.
   const double borne = kStartRounding + checks().deepest_overlap;
-  if (const double overlap = deepest_overlap(stop); overlap > borne) {
-    throw overlap_at_start<D>(model_, saved, overlap);
+  if (work.deepest_overlap > borne) {
+    throw overlap_at_start<D>(model_, saved, work.deepest_overlap);
   }
-  loop_.plan(stop);
+  if (!loop_.plan(work, pause)) return false;
+  preparation_.reset();
+  return true;
 }
 
 template <int D>
@@ -233,10 +252,14 @@ typename EventLoop<D>::Halt Simulation<D>::follow_foresight(double stop, std::ui
 
 template <int D>
 double Simulation<D>::deepest_overlap(const StopRequest& stop) const {
-  if (!in_tiles_) return loop_.deepest_overlap(stop);
+  typename EventLoop<D>::Preparation work;
+  if (!in_tiles_) {
+    if (!loop_.compare(work, stop)) throw Interrupted();
+    return work.deepest_overlap;
+  }
   EventLoop<D> placed(model_, boundary_, save());
-  placed.place(stop);
-  return placed.deepest_overlap(stop);
+  if (!placed.place(work, stop) || !placed.compare(work, stop)) throw Interrupted();
+  return work.deepest_overlap;
 }
 
 // The base moves before the run stops, so that the state is valid.

@@ -33,9 +33,15 @@ class Simulation {
   /// A wall whose frequency differs continues at its place, and one that begins to move has its
   /// phase now. Throws PhysicalStop if a wall now overlaps a particle. Throws Interrupted.
   Simulation(const Model<D>& model, RunState<D> saved, const StopRequest& stop = {});
+  /// Starts as above, but prepare() must complete before the run and before deepest_overlap().
+  struct InParts {};
+  Simulation(InParts, const Model<D>& model, State<D> state, double start_time = 0.0);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
+  /// Prepares the particles of a start in parts for the run. Returns false at a request to pause,
+  /// and true once all is done. Throws PhysicalStop as the constructors do.
+  bool prepare(const StopRequest& pause);
   /// Uses up to so many threads from now on, if runs_in_tiles(). The run has the same bits with any
   /// number of threads.
   void use_threads(int threads);
@@ -107,6 +113,12 @@ class Simulation {
     std::function<void(double)> action;
   };
 
+  struct Preparation {
+    RunState<D> saved;  // the start, without its particles
+    typename EventLoop<D>::Preparation loop;
+  };
+
+  Simulation(InParts, const Model<D>& model, RunState<D> saved);
   Timer* due_timer(double stop);
   void fire(Timer& timer);
   double next_kick() const;
@@ -127,6 +139,7 @@ class Simulation {
   std::uint64_t kicks_since_origin_;
   std::deque<Timer> timers_;  // keep their addresses while an action adds timers
   EventLoop<D> loop_;
+  std::unique_ptr<Preparation> preparation_;  // null: complete
   std::unique_ptr<Foresight<D>> foresight_;  // null: one thread, or a small gas
   bool in_tiles_ = false;                    // whether foresight_ finds the events now
   int failures_ = 0;     // bases in succession on which tiles had no certificate

@@ -57,7 +57,7 @@ class Insertion : public RandomInsertion<D>::Work {
     while (level_ < kLevels && !open_.empty()) {
       for (; tries_left_ > 0; --tries_left_) {
         if (placed_.size() == count) return true;
-        if (pause.made()) return false;
+        if (tries_left_ % kStepsPerQuestion == 0 && pause.made()) return false;
         try_once(open_[random.below(open_.size())], random);
       }
       if (!split_voxels(pause)) return false;
@@ -136,7 +136,7 @@ class Insertion : public RandomInsertion<D>::Work {
       });
     };
     for (; !open_.empty(); open_.pop_front()) {
-      if (pause.made()) return false;
+      if (open_.size() % kStepsPerQuestion == 0 && pause.made()) return false;
       const Voxel parent = 2 * open_.front();
       collect(parent, parent + Voxel::Ones(), is_covered, split_);
     }
@@ -216,7 +216,7 @@ class SparseInsertion : public RandomInsertion<D>::Work {
   bool place(std::size_t count, Random& random, const StopRequest& pause) override {
     placed_.reserve(count);
     while (placed_.size() < count) {
-      if (pause.made()) return false;
+      if (placed_.size() % kStepsPerQuestion == 0 && pause.made()) return false;
       Vec<D> point;
       for (int axis = 0; axis < D; ++axis) {
         point[axis] = low(axis) + random.uniform() * (model_.box[axis] - 2.0 * low(axis));

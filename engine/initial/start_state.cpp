@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <cstddef>
 #include <numbers>
 #include <optional>
@@ -76,19 +77,12 @@ static void choose(std::vector<Vec<D>>& sites, std::size_t count, Random& random
   sites.resize(count);
 }
 
-// exp(i m theta) as a vector, where theta is the direction of x: a power of the unit vector.
-static Vec2 direction_power(const Vec2& x, int m) {
-  const Vec2 unit = x / x.norm();
-  Vec2 power = unit;
-  for (int k = 1; k < m; ++k) {
-    power = {power.x() * unit.x() - power.y() * unit.y(),
-             power.x() * unit.y() + power.y() * unit.x()};
-  }
-  return power;
-}
-
-// |psi_m| = |<exp(i m theta)>| over all pairs closer than 1.5 diameters: the global bond order.
-static double bond_order(const Model<2>& model, const State<2>& state, int m) {
+// The global bond orders |psi_m| = |<exp(i m theta)>| over all pairs closer than 1.5 diameters.
+struct BondOrders {
+  double square = 0.0;      // m = 4
+  double triangular = 0.0;  // m = 6
+};
+static BondOrders bond_orders(const Model<2>& model, const State<2>& state) {
   constexpr double kReach = 1.5;
   Model<2> reach = model;
   reach.diameter = kReach * model.diameter;
@@ -96,26 +90,31 @@ static double bond_order(const Model<2>& model, const State<2>& state, int m) {
   for (std::uint32_t i = 0; i < state.positions.size(); ++i) {
     grid.insert(i, grid.cell_at(state.positions[i]));
   }
-  Vec2 sum = Vec2::Zero();
+  std::complex<double> fourth = 0.0, sixth = 0.0;  // sums of these powers of exp(i theta)
   double bonds = 0.0;
   for (std::uint32_t i = 0; i < state.positions.size(); ++i) {
     const Vec2& r = state.positions[i];
     grid.visit(grid.cell_at(r), [&](std::uint32_t j, const Vec2& wrap) {
       const Vec2 x = state.positions[j] - r + wrap.cwiseProduct(model.box);
-      if (j == i || x.norm() > reach.diameter) return;
-      sum += direction_power(x, m);
+      // Both directions of a pair have the same even powers.
+      if (j <= i || x.norm() > reach.diameter) return;
+      const std::complex<double> unit(x.x() / x.norm(), x.y() / x.norm());
+      const std::complex<double> square = unit * unit;
+      fourth += square * square;
+      sixth += square * square * square;
       bonds += 1.0;
     });
   }
-  return bonds > 0.0 ? sum.norm() / bonds : 0.0;
+  if (bonds == 0.0) return {};
+  return {std::abs(fourth) / bonds, std::abs(sixth) / bonds};
 }
 
 // Whether the lattice has melted. For disks the criterion is the bond order of the square and the
 // triangular lattice. For spheres it is a root mean square displacement of one diameter.
 static bool is_fluid(const Model<2>& model, const State<2>& state, const std::vector<Vec<2>>&) {
   const double finite = 3.0 / std::sqrt(static_cast<double>(state.positions.size()));
-  return bond_order(model, state, 4) < std::max(0.1, finite) &&
-         bond_order(model, state, 6) < std::max(0.3, finite);
+  const BondOrders orders = bond_orders(model, state);
+  return orders.square < std::max(0.1, finite) && orders.triangular < std::max(0.3, finite);
 }
 static bool is_fluid(const Model<3>& model, const State<3>& state,
                      const std::vector<Vec<3>>& sites) {
@@ -141,11 +140,12 @@ class Melting {
           const StopRequest& stop)
       : model_(elastic(room)),
         sites_(std::move(sites)),
-        gas_(model_, {sites_, gaussian_velocities<D>(sites_.size(), 1.0, ~seed, stop)}, 0.0, stop) {
-  }
+        gas_(typename Simulation<D>::InParts(), model_,
+             {sites_, gaussian_velocities<D>(sites_.size(), 1.0, ~seed, stop)}) {}
 
   // Returns false at a request to pause.
   bool advance(const StopRequest& pause) {
+    if (!gas_.prepare(pause)) return false;
     for (; round_ <= kRounds; ++round_) {
       const std::uint64_t most = collisions_after(round_);
       const bool arrived = gas_.run_until(kLongestRound * round_, most, kNoLimit, pause);

@@ -27,7 +27,7 @@ bool OpeningRun::advance(const StopRequest& pause) {
     run_ = watched_run(scene_, seed_, std::move(*start_), record_bytes_);
     if (pause.made()) return false;
   }
-  return true;
+  return run_->prepare(pause);
 }
 
 }  // namespace clatter

@@ -16,8 +16,8 @@ class OpeningRun {
   /// Throws UserError if the machine has not enough memory.
   OpeningRun(const Scene& scene, std::uint64_t seed, std::size_t record_bytes = kRecordBytes);
 
-  /// Continues until the run is complete. Returns false at a request to pause, and between parts
-  /// that need a large share of a second for 100 000 particles. Throws PhysicalStop if the state is
+  /// Continues until the run is complete. Returns false at a request to pause. The longest part
+  /// without a look at the request sorts all particles. Throws PhysicalStop if the state is
   /// impossible.
   bool advance(const StopRequest& pause);
   /// Estimate of the completed part, 0..1.

@@ -27,7 +27,8 @@ template <int D>
 ScheduledRun<D>::ScheduledRun(const Scene& scene, std::uint64_t seed, State<D> start)
     : schedule_(scene),
       seed_(seed),
-      simulation_(std::make_unique<Simulation<D>>(model_of<D>(scene, seed), std::move(start))) {}
+      simulation_(std::make_unique<Simulation<D>>(typename Simulation<D>::InParts(),
+                                                  model_of<D>(scene, seed), std::move(start))) {}
 
 template <int D>
 ScheduledRun<D>::ScheduledRun(const Scene& scene, std::uint64_t seed, const RunState<D>& saved,

@@ -30,12 +30,15 @@ class ScheduledRun {
  public:
   /// Starts a run as the scene describes. Throws Interrupted.
   ScheduledRun(const Scene& scene, std::uint64_t seed, const StopRequest& stop = {});
-  /// Starts a run as the scene describes, from its start state made before.
+  /// Starts a run as the scene describes, from its start state made before. prepare() must complete
+  /// before it runs.
   ScheduledRun(const Scene& scene, std::uint64_t seed, State<D> start);
   /// Continues a saved run. The scene's changes up to its time are in force. Throws Interrupted.
   ScheduledRun(const Scene& scene, std::uint64_t seed, const RunState<D>& saved,
                const StopRequest& stop = {});
 
+  /// As Simulation::prepare.
+  bool prepare(const StopRequest& pause) { return simulation_->prepare(pause); }
   /// As Simulation::use_threads, under all laws to come.
   void use_threads(int threads);
   /// The current simulation; a change of laws replaces it.

@@ -28,6 +28,7 @@ class RunOf : public WatchedRun {
   double time() const override { return run_.simulation().time(); }
   const EventCounts& counts() const override { return run_.simulation().counts(); }
   AnyState state() const override { return run_.simulation().state(); }
+  bool prepare(const StopRequest& pause) override { return run_.prepare(pause); }
   bool run_until(double time, std::uint64_t collisions, std::uint64_t steps) override;
   void settle() override;
   void change(const std::vector<Override>& laws, double delay) override;
@@ -468,7 +469,9 @@ std::unique_ptr<WatchedRun> watched_run(const Scene& scene, std::uint64_t seed,
   require_memory(scene);
   StartMaker maker(scene, seed);
   maker.advance();
-  return watched_run(scene, seed, maker.take(), record_bytes);
+  auto run = watched_run(scene, seed, maker.take(), record_bytes);
+  run->prepare({});
+  return run;
 }
 
 }  // namespace clatter

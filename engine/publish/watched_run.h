@@ -30,6 +30,8 @@ class WatchedRun {
   /// All particles at time().
   virtual AnyState state() const = 0;
 
+  /// As Simulation::prepare.
+  virtual bool prepare(const StopRequest& pause) = 0;
   /// As ScheduledRun::run_until.
   virtual bool run_until(double time, std::uint64_t collisions, std::uint64_t steps) = 0;
   /// As ScheduledRun::settle.
@@ -76,7 +78,8 @@ class WatchedRun {
 /// see RunRecord. Throws UserError if the machine has not enough memory.
 std::unique_ptr<WatchedRun> watched_run(const Scene& scene, std::uint64_t seed,
                                         std::size_t record_bytes = kRecordBytes);
-/// The same from the start state of the scene, made before by a StartMaker.
+/// The same from the start state of the scene, made before by a StartMaker. prepare() must complete
+/// before it runs.
 std::unique_ptr<WatchedRun> watched_run(const Scene& scene, std::uint64_t seed, AnyState start,
                                         std::size_t record_bytes = kRecordBytes);
 

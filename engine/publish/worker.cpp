@@ -69,8 +69,13 @@ class EngineWork {
 
   // Does the work for a frame after the real time `elapsed` since the last one, until about `due`.
   void run_slice(Clock::duration elapsed, Clock::time_point due) {
+    const bool opened = opens();
     obey_all();
-    if (opening_) return open_on();
+    if (opens()) {
+      // A new opening has already had its slice.
+      if (opened) open_on();
+      return;
+    }
     if (!moves()) return;
     if (backwards_) {
       begin_rewind();
@@ -224,7 +229,7 @@ class EngineWork {
 
   // Continues the opening for a slice of time. Returns whether it is complete.
   bool work_on_opening() {
-    constexpr std::chrono::milliseconds kSlice{50};
+    constexpr std::chrono::milliseconds kSlice{30};
     const auto due = Clock::now() + kSlice;
     bool complete = false;
     const bool possible = attempt([&] {

@@ -168,6 +168,18 @@ bool KeyReader::read(const toml::node& node, Limits limits, std::vector<int>& va
   return true;
 }
 
+// The limits are those of the number of texts.
+bool KeyReader::read(const toml::node& node, Limits limits, std::vector<std::string>& texts) {
+  const toml::array* array = node.as_array();
+  if (!array || !limits.allow(static_cast<double>(array->size()))) return false;
+  texts.clear();
+  for (const toml::node& item : *array) {
+    if (!item.is_string()) return false;
+    texts.push_back(item.as_string()->get());
+  }
+  return true;
+}
+
 bool KeyReader::read(const toml::node& node, Limits limits, ColourRange& range) {
   const auto name = node.value<std::string_view>();
   const auto ends = numbers_in(node, limits, 2);

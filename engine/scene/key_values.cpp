@@ -46,6 +46,10 @@ std::string allowed_values(const std::string&, Limits) {
   return "a text between quotes";
 }
 
+std::string allowed_values(const std::vector<std::string>&, Limits limits) {
+  return "a list of at most " + number_text(limits.highest) + " texts between quotes";
+}
+
 std::string allowed_values(const Vec2&, Limits limits) {
   return count_and_axes("numbers", limits, 2);
 }

@@ -13,6 +13,7 @@ std::string allowed_values(double number, Limits limits);
 std::string allowed_values(int number, Limits limits);
 std::string allowed_values(bool flag, Limits limits);
 std::string allowed_values(const std::string& text, Limits limits);
+std::string allowed_values(const std::vector<std::string>& texts, Limits limits);
 std::string allowed_values(const Vec2& numbers, Limits limits);
 std::string allowed_values(const VecX& numbers, Limits limits);
 std::string allowed_values(const std::vector<int>& numbers, Limits limits);

@@ -30,8 +30,12 @@ std::string value_text(const std::string& text) {
 template <class Numbers>
 static std::string array_text(const Numbers& numbers) {
   std::string text;
-  for (const auto number : numbers) text += (text.empty() ? "[" : ", ") + value_text(number);
+  for (const auto& number : numbers) text += (text.empty() ? "[" : ", ") + value_text(number);
   return text + ']';
+}
+
+std::string value_text(const std::vector<std::string>& texts) {
+  return texts.empty() ? "[]" : array_text(texts);
 }
 
 std::string value_text(const Vec2& vector) {

@@ -15,7 +15,8 @@ namespace clatter {
 std::string value_text(double number);  ///< shortest text that reads back to the same bits
 std::string value_text(int number);
 std::string value_text(bool flag);
-std::string value_text(const std::string& text);          ///< quoted, special characters escaped
+std::string value_text(const std::string& text);  ///< quoted, special characters escaped
+std::string value_text(const std::vector<std::string>& texts);
 std::string value_text(const Vec2& vector);               ///< as an array
 std::string value_text(const VecX& vector);               ///< as an array
 std::string value_text(const std::vector<int>& numbers);  ///< as an array

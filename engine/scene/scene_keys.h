@@ -175,6 +175,13 @@ inline constexpr std::array<Named<Quantity>, 2> kArrows = {
 inline constexpr std::array<Named<Theme>, 3> kThemes = {
     {{"dark", Theme::Dark}, {"light", Theme::Light}, {"projector", Theme::Projector}}};
 
+inline constexpr std::array<Named<LecturePlot>, 5> kLecturePlots = {
+    {{"none", LecturePlot::None},
+     {"temperature", LecturePlot::Temperature},
+     {"energy", LecturePlot::Energy},
+     {"velocities", LecturePlot::Velocities},
+     {"profile", LecturePlot::Profile}}};
+
 inline constexpr std::array<Named<Axis>, 3> kAxes = {
     {{"x", Axis::X}, {"y", Axis::Y}, {"z", Axis::Z}}};
 
@@ -624,6 +631,21 @@ void visit_slice(Visitor& io, Slice& slice) {
   io.value(kSliceKeys.at("position"), slice.position, between(0.0, kMaxLength), kRequired);
 }
 
+inline constexpr auto kLectureKeys = key_table(
+    "view", {{"sliders", "",
+              "Names of the sliders, as `?embed` has them. Most are keys. An empty list stands for "
+              "the restitution and the drive of the scene."},
+             {"plot", "",
+              "The large plot: the temperature, the energy balance, the distribution of velocities "
+              "or the profile."}});
+
+/// The keys of [view.lecture].
+template <class Visitor>
+void visit_lecture(Visitor& io, Lecture& lecture) {
+  io.value(kLectureKeys.at("sliders"), lecture.sliders, between(0, Lecture::kMostSliders));
+  io.choice(kLectureKeys.at("plot"), lecture.plot, kLecturePlots);
+}
+
 inline constexpr auto kViewKeys = key_table(
     "view render",
     {{"colour_by", "", "Quantity that colours the particles. Spin needs rough particles or walls."},
@@ -702,6 +724,7 @@ void visit_view(Visitor& io, View& view, int dimension) {
     io.table("slab", view.slab, [](auto& io, Slab& slab) { visit_slab(io, slab); });
     io.list("slices", view.slices, [](auto& io, Slice& slice) { visit_slice(io, slice); });
   }
+  io.table("lecture", [&](auto& io) { visit_lecture(io, view.lecture); });
   io.list("camera", view.camera,
           [&](auto& io, CameraKey& key) { visit_camera(io, key, dimension); });
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/scene/field.h"
@@ -78,6 +79,17 @@ struct Slice {
   double position = 0.0;
 };
 
+/// The plot of lecture mode.
+enum class LecturePlot { None, Temperature, Energy, Velocities, Profile };
+
+/// The parts of the window in lecture mode.
+struct Lecture {
+  static constexpr int kMostSliders = 3;
+
+  std::vector<std::string> sliders;  ///< names of at most kMostSliders; empty: chosen by the scene
+  LecturePlot plot = LecturePlot::Temperature;
+};
+
 /// Settings of pictures.
 struct View {
   ColourBy colour_by = ColourBy::Speed;
@@ -107,6 +119,7 @@ struct View {
   /// Of the heatmap of spheres, drawn as a volume: extinction coefficient at the end of its colour
   /// range, 1/a; 0: no volume. With a volume there is no slice unless `slices` has it.
   double volume = 0.0;
+  Lecture lecture = {};           ///< parts of the window in lecture mode
   std::vector<CameraKey> camera;  ///< in order of time; empty: always the whole box
 
   /// Replaces colours and fields of spins: the colour by the speed, the heatmap by none. Returns

@@ -9,7 +9,7 @@ FieldTexture::FieldTexture(const Gl& gl)
     : gl_(&gl), cells_(generate<Texture>(gl, gl.GenTextures)) {}
 
 static Colour premultiplied(Colour colour, double opacity) {
-  return mix({0, 0, 0, 0}, colour, opacity);
+  return opacity == 1.0 ? colour : mix({0, 0, 0, 0}, colour, opacity);
 }
 
 void FieldTexture::bind(const PlaneMap& map, const ColourScale& scale, FieldStyle style) {

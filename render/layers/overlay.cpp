@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <span>
 #include <vector>
 
 #include "render/eye.h"
@@ -30,6 +31,7 @@ struct Page {
   Margins margins;       // margins of the text
   float edge = 0.0f;     // from the edge of the picture to the text, pixels
   float wrap = 0.0f;     // longest line of the heading, pixels
+  float heading = 0.0f;  // from the upper edge of the picture to the end of the heading, pixels
   float caption = 0.0f;  // from the upper edge of the picture to the caption, pixels
   ImVec2 box_low = {},
          box_high = {};  // upper left and lower right corner of the box with its walls, pixels
@@ -54,6 +56,8 @@ Page arrange(Arrangement arrangement, const Fonts& fonts, const ThemeColours& th
   if (!text.caption.empty()) {
     end = page.caption + text_extent(*fonts.text, text.caption, page.wrap).y;
   }
+
+  page.heading = end > edge ? end : 0.0f;
 
   const float width = legend_width(legends, fonts);
   const double frame = edge + wall_thickness(size);
@@ -180,15 +184,22 @@ void draw_row(ImDrawList& list, const Snapshot& snapshot, const Projection& proj
   }
 }
 
-// Figures in a column in the lower left corner, and the scale bar above them.
+// Figures in a column in the lower left corner, and the scale bar above them, as far as they fit
+// below the heading.
 void draw_column(ImDrawList& list, const Snapshot& snapshot, const Projection& projection,
                  const Page& page) {
-  const float unit = page.fonts.unit();
-  const auto figures = figures_of(snapshot, page.theme);
+  const float unit = page.fonts.unit(), line = std::round(1.5f * unit);
+  const float room = static_cast<float>(page.size.height) - page.edge - page.heading;
+  const auto all = figures_of(snapshot, page.theme);
+  const auto fitting = static_cast<std::size_t>(std::max(0.0f, (room + 0.5f * unit) / line));
+  const std::span<const Figure> figures(all.data(), std::min(fitting, all.size()));
   float y = page.size.height - page.edge - std::round(1.5f * unit * figures.size() - 0.5f * unit);
-  const double length = scale_length(snapshot, projection);
-  draw_scale_bar(list, ImVec2(page.edge, y - 1.5f * unit), length,
-                 static_cast<float>(length * snapshot.diameter * projection.scale()), page);
+  if (y - 3.0f * unit > page.heading) {
+    const double length = scale_length(snapshot, projection);
+    draw_scale_bar(list, ImVec2(page.edge, y - 1.5f * unit), length,
+                   static_cast<float>(length * snapshot.diameter * projection.scale()), page);
+  }
+  if (figures.empty()) return;
   float width = 0.0f;
   for (const Figure& figure : figures) {
     width = std::max(width, text_extent(*page.fonts.text, figure.text).x);
@@ -197,7 +208,7 @@ void draw_column(ImDrawList& list, const Snapshot& snapshot, const Projection& p
              page);
   for (const Figure& figure : figures) {
     draw_text(list, *page.fonts.text, ImVec2(page.edge, y), figure.ink, figure.text);
-    y += std::round(1.5f * unit);
+    y += line;
   }
 }
 

@@ -360,11 +360,11 @@ void check_interrupted() {
     const Scene scene = scene_of<D>(c.fraction, {});
     int all = 0;
     start_state<D>(scene, 89, [&] { return ++all < 0; });
-    CHECK(all >= scene.particles.count);
+    CHECK(all >= scene.particles.count / static_cast<int>(kStepsPerQuestion));
     for (const int yes : {1, 2, all / 2, all}) CHECK(looks_until<D>(scene, yes) == yes);
   }
-  Scene thin = channel<D>(0.01);
-  thin.particles.count = 40;
+  Scene thin = thin_gas<D>();
+  thin.particles.count = 800;
   CHECK(looks_until<D>(thin, 20) == 20);
 }
 
@@ -395,8 +395,8 @@ void check_pauses() {
     const int pauses = pauses_of<D>(scene_of<D>(c.fraction, {}));
     if (c.fraction <= kMelted<D>) CHECK(pauses > 3);
   }
-  Scene thin = channel<D>(0.01);
-  thin.particles.count = 40;
+  Scene thin = thin_gas<D>();
+  thin.particles.count = 800;
   CHECK(pauses_of<D>(thin) >= 40);
 }
 

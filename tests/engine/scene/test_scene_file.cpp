@@ -533,7 +533,8 @@ TEST_CASE("Scene file: a scene as JSON has the keys of the file") {
       R"("view": {"colour_by": "speed", "window": 20.0, "estimator": "exact", "speed": 1.0, )"
       R"("palette": "viridis", )"
       R"("range": "auto", "field_palette": "blue", "field_style": "smooth", )"
-      R"("field_range": "auto", "theme": "dark", "grid": false, "overlay": true}})");
+      R"("field_range": "auto", "theme": "dark", "grid": false, "overlay": true, )"
+      R"("lecture": {"sliders": [], "plot": "temperature"}}})");
 }
 
 TEST_CASE(

@@ -1,0 +1,145 @@
+// Changes of the window that no file has.
+
+#include <doctest/doctest.h>
+
+#include "tests/app/gui_driver.h"
+
+namespace clatter {
+
+using nlohmann::json;
+
+TEST_SUITE_BEGIN("window");
+
+namespace {
+
+bool answered(const GuiDriver& driver, std::size_t told) {
+  return driver.wait_for("answer", told)["acts"];
+}
+
+bool has(const GuiDriver& driver, const std::string& event) {
+  return !driver.events(event).empty();
+}
+
+}  // namespace
+
+TEST_CASE("Window: it asks before it closes with changes, and Cancel keeps it open") {
+  const GuiDriver driver("");
+  driver.drag("particles.restitution", 0.88, 0.5);
+  std::size_t told = driver.told();
+  driver.key("ctrl+q");
+  driver.click("unsaved.cancel");
+  CHECK(!answered(driver, told));
+  told = driver.told();
+  driver.key("ctrl+q");
+  driver.key("r");  // no shortcut meanwhile
+  driver.key("Escape");
+  CHECK(!answered(driver, told));
+  CHECK(!has(driver, "reset"));
+  // The gas moves on.
+  told = driver.told();
+  const double now = driver.wait_for("status", told)["time"];
+  driver.wait_for("status", told, [&](const json& status) { return status["time"] > now; });
+  driver.key("ctrl+q");
+  driver.click("unsaved.discard");
+  driver.wait_for("quit");
+  CHECK(driver.exit_code() == 0);
+  CHECK(!has(driver, "saved"));
+}
+
+TEST_CASE("Window: Save writes the changes before it closes") {
+  const GuiDriver driver("");
+  driver.drag("particles.restitution", 0.88, 0.5);
+  driver.key("ctrl+q");
+  driver.key("Return");
+  driver.wait_for("quit");
+  CHECK(driver.exit_code() == 0);
+  CHECK(says(driver.shell().read(driver.wait_for("saved")["file"]), "[[change]]"));
+}
+
+TEST_CASE("Window: without changes, or with saved ones, it closes at once") {
+  const GuiDriver driver("");
+  driver.click("view.grid");  // of the picture, not of the gas
+  SUBCASE("none") {}
+  SUBCASE("saved") {
+    driver.drag("particles.restitution", 0.88, 0.5);
+    const std::size_t told = driver.told();
+    driver.key("ctrl+s");
+    driver.wait_for("saved", told);
+  }
+  driver.key("ctrl+q");
+  driver.wait_for("quit");
+  CHECK(driver.exit_code() == 0);
+}
+
+TEST_CASE("Window: it asks before another scene takes the place of a changed one") {
+  const GuiDriver driver("");
+  driver.drag("particles.restitution", 0.88, 0.5);
+  std::size_t told = driver.told();
+  driver.key("bracketright");
+  driver.click("unsaved.cancel");
+  CHECK(!answered(driver, told));
+  CHECK(driver.events("open").size() == 1);
+  driver.key("bracketright");
+  driver.click("unsaved.save");
+  driver.wait_for("open", told);
+  CHECK(has(driver, "saved"));
+  // The new scene is unchanged.
+  told = driver.told();
+  driver.key("bracketleft");
+  driver.wait_for("open", told);
+}
+
+TEST_CASE("Window: changes that were given up for another scene come back with undo") {
+  const GuiDriver driver("");
+  driver.drag("particles.restitution", 0.88, 0.5);
+  std::size_t told = driver.told();
+  driver.key("bracketright");
+  driver.click("unsaved.discard");
+  driver.wait_for("open", told);
+  told = driver.told();
+  driver.key("ctrl+z");
+  driver.wait_for("open", told);
+  driver.key("ctrl+q");
+  driver.click("unsaved.discard");
+  driver.wait_for("quit");
+}
+
+TEST_CASE("Window: the scene is restored as it was opened, and undo returns to the changes") {
+  const GuiDriver driver("--set particles.restitution=0.85", "1280x1700");
+  driver.drag("particles.restitution", 0.83, 0.5);
+  const auto has = [](double low, double high) {
+    return [=](const json& status) {
+      return status["restitution"] >= low && status["restitution"] <= high;
+    };
+  };
+  driver.wait_for("status", 0, has(0.45, 0.55));
+  std::size_t told = driver.told();
+  driver.click("restore");
+  CHECK(driver.wait_for("status", told, has(0.85, 0.85))["changes"] == 0);
+  told = driver.told();
+  driver.key("ctrl+z");
+  driver.wait_for("status", told, has(0.45, 0.55));
+  driver.key("ctrl+y");
+  driver.key("ctrl+q");
+  driver.wait_for("quit");
+}
+
+TEST_CASE("Window: what it saves takes the place of no file") {
+  const GuiDriver driver("", "1280x1700");
+  driver.shell().run("echo kept | tee clatter-1.toml clatter-2.mp4 clatter-3.png clatter-4.csv");
+  std::size_t told = driver.told();
+  driver.key("ctrl+s");
+  CHECK(driver.wait_for("saved", told)["file"] == "clatter-5.toml");
+  told = driver.told();
+  driver.click("film");
+  const json film = driver.wait_for("film", told);
+  CHECK(film["file"] == "clatter-6.mp4");
+  CHECK(film["code"] == 0);
+  for (const char* file : {"clatter-1.toml", "clatter-2.mp4", "clatter-3.png", "clatter-4.csv"}) {
+    CHECK(driver.shell().read(file) == "kept\n");
+  }
+}
+
+TEST_SUITE_END();
+
+}  // namespace clatter
