@@ -79,7 +79,8 @@ PngSequence::PngSequence(std::filesystem::path folder, const SinkOptions& option
   make_folder(folder_, options);
   if (!options.sound) return;
   const std::filesystem::path sound = folder_ / "sound.wav";
-  if (!options.overwrite && !options.goes_on && std::filesystem::exists(sound)) {
+  if (!options.overwrite && *options.sound == 0 && !options.goes_on &&
+      std::filesystem::exists(sound)) {
     throw UserError({folder_.string()}, "has a sound already: sound.wav",
                     "give another folder, or --overwrite to replace it");
   }

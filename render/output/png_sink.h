@@ -28,8 +28,7 @@ class PngFile final : public FrameSink {
 };
 
 /// A folder of pictures, DIR/frame_000000.png etc., encoded by worker threads. Its sound is
-/// DIR/sound.wav. Written pictures
-/// always remain.
+/// DIR/sound.wav. Written pictures always remain.
 class PngSequence final : public FrameSink {
  public:
   /// Creates the folder. Throws UserError if earlier frames are missing, or if frames of these

@@ -68,7 +68,7 @@ bool write_at(const FileDescriptor& file, std::string_view bytes, long place) {
 
 WavFile::WavFile(std::filesystem::path path, long samples, std::uint32_t checksum)
     : path_(std::move(path)),
-      file_(open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)),
+      file_(open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666)),
       samples_(samples) {
   if (!file_) fail();
   require_samples(checksum);

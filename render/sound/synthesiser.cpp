@@ -49,15 +49,18 @@ long samples_before(long frame, double fps) {
   return static_cast<long>(std::floor(static_cast<double>(frame) * kSampleRate / fps));
 }
 
-SoundScale scale_of(std::span<const Click> clicks, double seconds) {
-  double squares = 0.0, energies = 0.0;
+void ClickSums::add(std::span<const Click> clicks) {
+  count_ += static_cast<long>(clicks.size());
   for (const Click& click : clicks) {
-    squares += click.impulse * click.impulse;
-    energies += click.energy;
+    squares_ += click.impulse * click.impulse;
+    energies_ += click.energy;
   }
-  if (!(squares > 0.0) || !(energies > 0.0)) return {};
-  const auto count = static_cast<double>(clicks.size());
-  return {std::sqrt(squares / count), energies / count, count / seconds};
+}
+
+SoundScale ClickSums::scale(double seconds) const {
+  if (!(squares_ > 0.0) || !(energies_ > 0.0) || !(seconds > 0.0)) return {};
+  const auto count = static_cast<double>(count_);
+  return {std::sqrt(squares_ / count), energies_ / count, count / seconds};
 }
 
 Synthesiser::Synthesiser() : resonators_(kPitches) {

@@ -31,9 +31,21 @@ struct SoundScale {
   }
 };
 
-/// The scale of clicks: root mean square impulse, mean energy, and the rate over `seconds` of film.
-/// Without clicks that have an impulse it is the default scale.
-SoundScale scale_of(std::span<const Click> clicks, double seconds);
+/// Sums over clicks, which give their scale.
+class ClickSums {
+ public:
+  /// Adds clicks.
+  void add(std::span<const Click> clicks);
+  /// Number of clicks.
+  long count() const { return count_; }
+  /// The scale: root mean square impulse, mean energy, and the rate over `seconds` of film. Without
+  /// clicks that have an impulse it is the default scale.
+  SoundScale scale(double seconds) const;
+
+ private:
+  long count_ = 0;
+  double squares_ = 0.0, energies_ = 0.0;  // sums of squared impulses and of energies
+};
 
 /// Turns clicks into sound. A click excites a resonator, which decays within a few periods. There
 /// is a resonator for each semitone around 1000 Hz, per channel. So any number of clicks takes the
@@ -49,11 +61,15 @@ class Synthesiser {
   void add(const Click& click, double seconds);
   /// The samples up to number `end`. All clicks before this sample must have been added.
   std::vector<StereoSample> render(long end);
+  /// Number of samples so far.
+  long samples() const { return static_cast<long>(next_); }
 
   /// Visits the members that a checkpoint keeps.
   template <class Archive>
   void visit(Archive& io) {
     io(gain_, scale_, next_, envelope_, strikes_, resonators_);
+    io.require(next_ >= 0);
+    for (const Strike& strike : strikes_) io.require(strike.sample >= next_);
   }
 
   /// Frequency of the middle pitch, in Hz.
