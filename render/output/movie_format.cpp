@@ -99,10 +99,13 @@ static std::vector<std::string> quiet(const std::string& encoder) {
   return {encoder, "-v", "error", "-nostdin", "-y"};
 }
 
-// Options for the texts of a film, as the second input after the pictures: a metadata file or a
-// film.
+// The texts of the second input are those of the film.
+static const std::vector<std::string> kTextsOfSecond = {"-map_metadata", "1"};
+
+// Options for the input with the texts of a film, a metadata file or a film. It must be the second
+// input, for kTextsOfSecond.
 static std::vector<std::string> texts_of(const std::filesystem::path& texts) {
-  std::vector<std::string> all = {"-i", name_of(texts), "-map_metadata", "1"};
+  std::vector<std::string> all = {"-i", name_of(texts)};
   if (!find_movie_format(texts.extension())) all.insert(all.begin(), {"-f", "ffmetadata"});
   return all;
 }
@@ -115,6 +118,7 @@ std::vector<std::string> encoding_command(const std::string& encoder, const Movi
   append(all, {"-f", "rawvideo", "-pix_fmt", "rgba", "-video_size", size_text(options.size)});
   append(all, {"-framerate", fmt::format("{:.10g}", options.fps), "-i", "pipe:0"});
   append(all, texts_of(metadata));
+  append(all, kTextsOfSecond);
   append(all, format.encoding);
   append(all, {"-f", format.muxer, name_of(file)});
   return all;
@@ -136,6 +140,7 @@ std::vector<std::string> joining_command(const std::string& encoder, const Movie
   append(all, {"-f", "concat", "-safe", "0", "-i", name_of(list)});
   append(all, texts_of(texts));
   if (!sound.empty()) append(all, {"-i", name_of(sound)});
+  append(all, kTextsOfSecond);
   append(all, {"-map", "0"});
   if (!sound.empty()) append(all, {"-map", "2:a"});
   // "+bitexact" leaves out version and random identifiers: equal films are equal files.
