@@ -16,6 +16,7 @@ constexpr double kDecayPeriods = 5.0;  // periods in which a resonator decays by
 constexpr double kClickPeak = 0.25;    // of a click of mean energy, without other clicks
 constexpr double kLoudness = 0.1;      // root mean square of many clicks, of each channel
 constexpr double kKnee = 0.5;          // levels below it are not limited
+constexpr double kCeiling = 0.97;      // of all levels
 constexpr double kRelease = 0.1;       // seconds in which the limiter recovers by a factor e
 constexpr double kSilence = 1e-7;      // a weaker resonator is at rest
 
@@ -85,13 +86,14 @@ void Synthesiser::add(const Click& click, double seconds) {
        amplitude * std::sqrt(1.0 - click.place), amplitude * std::sqrt(click.place)});
 }
 
-// Limits a level below 1. The gain of the limiter falls at once and recovers slowly.
+// Limits a level below kCeiling. The gain of the limiter falls at once and recovers slowly.
 double Synthesiser::limited(double level) {
   constexpr double kKept = 1.0 - 1.0 / (kRelease * kSampleRate);
   envelope_ = std::max(level, envelope_ * kKept);
   if (envelope_ <= kKnee) return 1.0;
-  const double over = (envelope_ - kKnee) / (1.0 - kKnee);
-  return (kKnee + (1.0 - kKnee) * over / (1.0 + over)) / envelope_;
+  constexpr double kRange = kCeiling - kKnee;
+  const double over = (envelope_ - kKnee) / kRange;
+  return (kKnee + kRange * over / (1.0 + over)) / envelope_;
 }
 
 void Synthesiser::ring(int pitch, std::span<const Strike> strikes,
