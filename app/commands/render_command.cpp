@@ -27,6 +27,7 @@
 #include "render/output/film_join.h"
 #include "render/output/frame_sink.h"
 #include "render/output/movie.h"
+#include "render/output/wav_file.h"
 
 namespace clatter {
 
@@ -72,6 +73,7 @@ struct RenderOptions {
   std::optional<int> threads;         // of a large gas and of encoding
   bool no_overlay = false;
   bool transparent = false;
+  bool sound = false;
   bool overwrite = false;
   Backend backend = Backend::Auto;
   std::string join;  // folder of the parts of the film; empty: draw it
@@ -127,6 +129,7 @@ FilmState new_film(const RenderOptions& options, const View& view, double start)
   film.shutter = options.shutter.value_or(0.0);
   film.transparent = options.transparent;
   film.overlay = view.overlay && !options.no_overlay;
+  if (options.sound) film.sound.emplace();
   film.times = {options.from.value_or(start), options.speed.value_or(view.speed),
                 options.fps.value_or(preset_fps(options, quality)), 1};
   if (film.times.from < start) {
@@ -147,12 +150,31 @@ FilmState new_film(const RenderOptions& options, const View& view, double start)
   return film;
 }
 
+// Refuses sound where a format or a part of a film has none.
+void require_sound(const RenderOptions& options, const FrameTimes& times) {
+  const auto refuse = [](const char* problem, const char* remedy) {
+    throw UserError({"--sound", 0, 0}, problem, remedy);
+  };
+  if (options.gif()) refuse("a GIF has no sound", "write another format, or omit --sound");
+  if (options.one_picture()) {
+    refuse("one picture has no sound", "write a film or to a folder, or omit --sound");
+  }
+  if (options.frames || options.slurm > 0 || !options.join.empty()) {
+    refuse("a film made in parts has no sound",
+           "omit --sound, or omit --frames, --join and --slurm");
+  }
+  if (samples_before(times.count, times.fps) > kMaxWavSamples) {
+    refuse("the sound would be longer than 6 hours", "choose an earlier --to, or omit --sound");
+  }
+}
+
 // Refuses settings that the format cannot have.
 void require_format(const RenderOptions& options, const FilmState& film) {
   if (options.gif() && film.times.fps > kMaxGifFps) {
     throw UserError({"--fps", 0, 0}, "a GIF has at most 50 frames per second",
                     "give at most --fps 50, or write another format");
   }
+  if (film.sound) require_sound(options, film.times);
   const std::string extension = options.extension();
   if (!options.transparent || extension.empty() || extension == ".png") return;
   throw UserError({"--transparent", 0, 0}, "only PNG pictures can be transparent",
@@ -196,6 +218,7 @@ FilmState continued_film(const RenderOptions& options, FilmState film) {
   keep(options.shutter, film.shutter, "--shutter", number_text);
   if (options.transparent && !film.transparent) refuse_change("--transparent", "a background");
   if (options.no_overlay && film.overlay) refuse_change("--no-overlay", "an overlay");
+  if (options.sound && !film.sound) refuse_change("--sound", "no sound");
   const std::optional<double> to = options.to ? options.to : options.common.until;
   if (to) film.times.count = count_frames(times, to);
   if (film.times.count < film.next) {
@@ -227,6 +250,7 @@ FilmState restarted(FilmState film) {
   film.shown.clear();
   film.checksums.clear();
   film.notes.clear();
+  if (film.sound) film.sound.emplace();
   return film;
 }
 
@@ -257,6 +281,10 @@ SinkOptions sink_options(const RenderOptions& options, const Scene& scene, std::
   sink.overwrite = options.overwrite;
   sink.begin = frames.begin;
   if (options.frames) sink.end = frames.end;
+  if (film.sound) {
+    sink.sound = film.sound->samples();
+    sink.sound_checksum = film.sound->checksum;
+  }
   sink.stop = interrupted;
   sink.next = std::max(film.next, frames.begin);
   sink.goes_on = film.begin == frames.begin && film.next >= frames.begin;
@@ -478,6 +506,8 @@ void add_render_command(CLI::App& program, int& exit_code) {
                     "Draw no title, time, colour bar and scale bar.");
   command->add_flag("--transparent", options->transparent,
                     "Draw PNG pictures without a background.");
+  command->add_flag("--sound", options->sound,
+                    "Give a film the sound of its collisions. A folder gets it as sound.wav.");
   command->add_flag("--overwrite", options->overwrite,
                     "Replace existing frames in a folder, or an interrupted film.");
   CLI::Option* frames = command

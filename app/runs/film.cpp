@@ -24,10 +24,16 @@ static void visit(Archive& io, PngText& text) {
 }
 
 template <class Archive>
+static void visit(Archive& io, FilmSound& sound) {
+  auto& [synthesiser, checksum] = sound;
+  io(synthesiser, checksum);
+}
+
+template <class Archive>
 static void visit(Archive& io, FilmState& state) {
-  auto& [times, size, samples, shutter, transparent, overlay, next, begin, ranges, camera, shown,
-         checksums, notes] = state;
-  io(times, size, samples, shutter, transparent, overlay, next, begin, ranges, camera, shown,
+  auto& [times, size, samples, shutter, transparent, overlay, sound, next, begin, ranges, camera,
+         shown, checksums, notes] = state;
+  io(times, size, samples, shutter, transparent, overlay, sound, next, begin, ranges, camera, shown,
      checksums, notes);
 }
 
@@ -59,6 +65,7 @@ Film<D>::Film(Run<D>& run, const Scene& scene, const View& view, FilmState state
   run_.scheduled().show(view_, state_.shown, state_.exposure());
   run_.film_state = [this] { return state_now(); };
   if (state_.ranges) renderer_.fix(*state_.ranges);
+  if (state_.sound && state_.sound->synthesiser) follow(run_.simulation());
 }
 
 // A single picture needs no film state; it is drawn again.
@@ -76,7 +83,11 @@ long Film<D>::draw(const FrameRange& frames, FrameSink& sink, Progress& progress
   state_.begin = frames.begin;
   for (; state_.next < frames.end; ++state_.next) {
     const long frame = state_.next;
-    if (!run_.until(state_.times.of(frame), progress) || !choose_ranges(progress)) return frame;
+    if (!run_.until(state_.times.of(frame), progress) || !choose_ranges(progress) ||
+        !choose_sound(progress)) {
+      return frame;
+    }
+    if (state_.sound) render_sound(sink);
     if (frame == first || (frame > first && frame % FrameSink::kPiece == 0)) {
       sink.flush();
       state_.checksums = sink.checksums();
@@ -102,6 +113,7 @@ long Film<D>::draw(const FrameRange& frames, FrameSink& sink, Progress& progress
     sink.add(state_.transparent ? with_own_colours(picture) : picture, state_.notes);
     progress.update(snapshot.time);
   }
+  if (state_.sound && state_.next == state_.times.count) end_sound(sink);
   return state_.next;
 }
 
@@ -143,6 +155,68 @@ RangeEnds Film<D>::look_ahead() const {
     // The film itself runs into the same stop later.
   }
   return ends;
+}
+
+template <int D>
+bool Film<D>::choose_sound(Progress& progress) {
+  if (!state_.sound || state_.sound->synthesiser) return true;
+  const SoundScale scale = listen_ahead();
+  // The look-ahead may have been interrupted.
+  if (!run_.until(run_.simulation().time(), progress)) return false;
+  state_.sound->synthesiser.emplace().use(scale);
+  follow(run_.simulation());
+  return true;
+}
+
+// The scale of the first seconds of the film that have a click. A dense gas has many clicks within
+// a frame.
+template <int D>
+SoundScale Film<D>::listen_ahead() const {
+  constexpr double kSeconds = 2.0;
+  constexpr long kManyClicks = 100'000;
+  ScheduledRun<D> ahead(scene_, run_.scheduled().seed(), run_.simulation().save());
+  ClickRecorder<D> clicks;
+  ahead.on_change = [&clicks](Simulation<D>& next) { clicks.follow(next); };
+  clicks.follow(ahead.simulation());
+  ClickSums sums;
+  double seconds = 0.0;
+  try {
+    for (long frame = 1; frame < state_.times.count; ++frame) {
+      if (!ahead.run_until(state_.times.of(frame), kNoLimit, kNoLimit, interrupted)) break;
+      sums.add(clicks.take());
+      seconds = static_cast<double>(frame) / state_.times.fps;
+      if (sums.count() >= kManyClicks || (sums.count() > 0 && seconds >= kSeconds)) break;
+    }
+  } catch (const PhysicalStop&) {
+    // The film itself runs into the same stop later.
+  }
+  return sums.scale(seconds);
+}
+
+template <int D>
+void Film<D>::follow(Simulation<D>& next) {
+  clicks_.follow(next);
+  run_.scheduled().on_change = [this](Simulation<D>& changed) { clicks_.follow(changed); };
+}
+
+// The samples between the previous frame and the next.
+template <int D>
+void Film<D>::render_sound(FrameSink& sink) {
+  const FrameTimes& times = state_.times;
+  Synthesiser& synthesiser = *state_.sound->synthesiser;
+  for (const Click& click : clicks_.take()) {
+    synthesiser.add(click, (click.time - times.from) / times.speed);
+  }
+  sink.add_sound(synthesiser.render(samples_before(state_.next, times.fps)));
+  state_.sound->checksum = sink.sound_checksum();
+}
+
+// The last frame lasts as long as the others, but the run ends with it. A film that is continued
+// renders these samples with the clicks of the run, so the state of the sound does not change.
+template <int D>
+void Film<D>::end_sound(FrameSink& sink) const {
+  Synthesiser synthesiser = *state_.sound->synthesiser;
+  sink.add_sound(synthesiser.render(samples_before(state_.next, state_.times.fps)));
 }
 
 template <int D>

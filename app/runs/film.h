@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "app/runs/run.h"
+#include "engine/publish/click_recorder.h"
 #include "render/gl/canvas.h"
 #include "render/layers/renderer.h"
 #include "render/output/frame_sink.h"
+#include "render/sound/synthesiser.h"
 
 namespace clatter {
 
@@ -29,6 +31,15 @@ struct FrameTimes {
   double last() const { return of(count - 1); }
 };
 
+/// The sound of a film before its next frame.
+struct FilmSound {
+  std::optional<Synthesiser> synthesiser;  ///< absent: its scale is not chosen yet
+  std::uint32_t checksum = 0;              ///< of the samples so far, see FrameSink
+
+  /// Number of samples so far.
+  long samples() const { return synthesiser ? synthesiser->samples() : 0; }
+};
+
 /// All settings that the pictures of a film depend on, besides the scene and the run. Parts made
 /// with the same settings form one film.
 struct FilmState {
@@ -38,6 +49,7 @@ struct FilmState {
   double shutter = 0.0;             ///< exposure as a share of the time between two frames
   bool transparent = false;         ///< without a background
   bool overlay = true;              ///< whether pictures have text
+  std::optional<FilmSound> sound;   ///< absent: a silent film
   long next = 0;                    ///< number of the next frame
   std::optional<long> begin;        ///< of the part in progress; absent: none
   std::optional<RangeEnds> ranges;  ///< colour ranges; absent: not chosen yet
@@ -57,7 +69,8 @@ std::string to_bytes(FilmState state);
 std::optional<FilmState> film_of(const Resumed& resumed);
 
 /// Films a run, frame by frame. Automatic colour ranges are chosen once, from the first averaging
-/// window of the whole film. The run computes this window in advance.
+/// window of the whole film. The run computes this window in advance. The same holds for the scale
+/// of the sound.
 template <int D>
 class Film {
  public:
@@ -77,6 +90,11 @@ class Film {
   std::string state_now() const;
   bool choose_ranges(Progress& progress);
   RangeEnds look_ahead() const;
+  bool choose_sound(Progress& progress);
+  SoundScale listen_ahead() const;
+  void follow(Simulation<D>& next);
+  void render_sound(FrameSink& sink);
+  void end_sound(FrameSink& sink) const;
   std::vector<PngText> notes() const;
 
   Run<D>& run_;
@@ -86,6 +104,7 @@ class Film {
   FilmState state_;
   Canvas canvas_;
   Renderer renderer_;
+  ClickRecorder<D> clicks_;  ///< follows the run from the first frame on, if the film has sound
 };
 
 extern template class Film<2>;

@@ -8,7 +8,11 @@
 namespace clatter {
 
 std::uint32_t checksum(std::string_view bytes) {
-  return libdeflate_crc32(0, bytes.data(), bytes.size());
+  return continued_checksum(0, bytes);
+}
+
+std::uint32_t continued_checksum(std::uint32_t before, std::string_view bytes) {
+  return libdeflate_crc32(before, bytes.data(), bytes.size());
 }
 
 std::optional<std::uint32_t> checksum_of_file(const std::filesystem::path& file) {

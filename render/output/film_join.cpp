@@ -165,8 +165,8 @@ std::filesystem::path PartsFolder::safe_name(const std::string& file) const {
 }
 
 void join_films(const PartsFolder& folder, const std::vector<FilmPart>& parts, double fps,
-                const std::filesystem::path& texts, const MovieFormat& format,
-                const std::filesystem::path& list, const NewFile& joined,
+                const std::filesystem::path& texts, const std::string& sound,
+                const MovieFormat& format, const std::filesystem::path& list, const NewFile& joined,
                 const std::string& encoder) {
   std::string entries = "ffconcat version 1.0\n";
   long count = 0;
@@ -179,7 +179,8 @@ void join_films(const PartsFolder& folder, const std::vector<FilmPart>& parts, d
   write_file(list, entries);
 
   ChildProcess joiner(joining_command(encoder, format, folder.safe_name(texts.filename().string()),
-                                      list, name_while_open(joined.file, joined.path.string())));
+                                      sound.empty() ? "" : folder.safe_name(sound), list,
+                                      name_while_open(joined.file, joined.path.string())));
   if (!joiner.wait()) {
     unlink(joined.path.c_str());
     throw RunError(reason_of(joiner));
@@ -209,7 +210,7 @@ void join_parts(const std::filesystem::path& folder, long count, double fps,
     const std::vector<FilmPart> parts = complete_parts(folder, format.extension, count, fps);
     // Two tasks that end together write the same film to files of their own.
     const TemporaryFile list(target), joined(target);
-    join_films({folder, opened}, parts, fps, parts.back().path, format, list.path, joined);
+    join_films({folder, opened}, parts, fps, parts.back().path, "", format, list.path, joined);
     rename_synced(joined.path, target);
   } catch (const RunError& error) {
     throw RunError("cannot write " + path.string() + ": " + error.what());

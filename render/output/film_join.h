@@ -38,11 +38,12 @@ struct PartsFolder {
 };
 
 /// Joins films in a folder to one in the file `joined`, without encoding them again. `texts` is a
-/// file with its texts, a metadata file or a film. The input of the encoder is written to `list`.
+/// file with its texts, a metadata file or a film. `sound` is a WAV file in the folder; empty: no
+/// sound. The input of the encoder is written to `list`.
 /// Throws RunError with the reason, also if the film lacks pictures, and then removes `joined`.
 void join_films(const PartsFolder& folder, const std::vector<FilmPart>& parts, double fps,
-                const std::filesystem::path& texts, const MovieFormat& format,
-                const std::filesystem::path& list, const NewFile& joined,
+                const std::filesystem::path& texts, const std::string& sound,
+                const MovieFormat& format, const std::filesystem::path& list, const NewFile& joined,
                 const std::string& encoder = "ffmpeg");
 
 /// Joins the films FIRST.EXTENSION in a folder to the film `path` of `count` pictures. FIRST is the

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +13,7 @@
 #include "engine/error.h"
 #include "engine/stop_request.h"
 #include "render/output/image.h"
+#include "render/sound/synthesiser.h"
 
 namespace clatter {
 
@@ -29,7 +32,11 @@ class FrameSink {
   /// Adds the next picture with its own texts. Waits only while too many pictures are unwritten.
   /// Throws the error of an earlier picture.
   virtual void add(Image image, std::vector<PngText> notes) = 0;
-  /// Waits until all complete pieces are written. Throws the first error.
+  /// Appends samples to the sound of the film. Only for sinks that were opened with sound.
+  virtual void add_sound(std::span<const StereoSample> samples) = 0;
+  /// CRC-32 of the sound so far.
+  virtual std::uint32_t sound_checksum() const { return 0; }
+  /// Waits until all complete pieces and the sound are written. Throws the first error.
   virtual void flush() = 0;
   /// Waits until everything is written. Throws the first error.
   virtual void finish(Ending ending) = 0;
@@ -54,7 +61,10 @@ struct SinkOptions {
   bool goes_on = false;  ///< restart: existing pictures from `next` on may be replaced
   std::vector<std::uint32_t> checksums = {};  ///< of the pieces before `next`; empty: unknown
   std::vector<PngText> notes = {};            ///< texts of the picture before `next`
-  StopRequest stop = {};                      ///< once made, an encoder that hangs is an error
+  /// Number of samples of the sound that already exist; absent: a film without sound.
+  std::optional<long> sound = {};
+  std::uint32_t sound_checksum = 0;  ///< of these samples
+  StopRequest stop = {};             ///< once made, an encoder that hangs is an error
 };
 
 /// A complete piece of a restarted film, or an earlier picture of a folder, differs from its

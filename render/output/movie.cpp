@@ -23,6 +23,7 @@ namespace {
 // Inputs of ffmpeg in the folder of the pieces.
 constexpr const char* kTexts = "texts.txt";
 constexpr const char* kPartList = "pieces.txt";
+constexpr const char* kSound = "sound.wav";
 
 // Thrown on the writing thread. The calling thread then reads the error of the encoder.
 struct EncoderStopped {};
@@ -80,6 +81,7 @@ Movie::Movie(std::filesystem::path path, const SinkOptions& options, const std::
   require_earlier_pieces();
   open_folder();
   if (begins) remove_own_files();
+  if (options.sound) sound_.emplace(folder_ / kSound, *options.sound, options.sound_checksum);
   start_piece();
 }
 
@@ -113,7 +115,7 @@ bool Movie::is_own(const std::string& name) const {
     if (name == input || name.starts_with("." + input + ".")) return true;
   }
   const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
-  return name == "joined" + format_->extension ||
+  return name == kSound || name == "joined" + format_->extension ||
          (digits >= 6 && name.substr(digits) == format_->extension);
 }
 
@@ -198,6 +200,10 @@ void Movie::add(Image image, std::vector<PngText> notes) {
   if (next_ % kPiece == 0) end_piece();
 }
 
+void Movie::flush() {
+  if (sound_) sound_->flush();
+}
+
 void Movie::end_piece() {
   try {
     queue_.drain();
@@ -241,12 +247,13 @@ void Movie::join() {
   texts.insert(texts.end(), options_.texts.begin(), options_.texts.end());
   write_file(folder_ / kTexts, metadata_file(texts));
   require_unchanged(pieces);
+  flush();
   const std::filesystem::path path = folder_ / ("joined" + format_->extension);
   const NewFile joined{path, open_new(path)};
   if (!joined.file) fail(std::strerror(errno));
   try {
-    join_films({folder_, held_}, pieces, options_.fps, folder_ / kTexts, *format_,
-               folder_ / kPartList, joined, program_);
+    join_films({folder_, held_}, pieces, options_.fps, folder_ / kTexts, sound_ ? kSound : "",
+               *format_, folder_ / kPartList, joined, program_);
   } catch (const RunError& error) {
     fail(error.what());
   }

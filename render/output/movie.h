@@ -1,11 +1,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "engine/system/child_process.h"
 #include "render/output/film_join.h"
 #include "render/output/frame_sink.h"
 #include "render/output/movie_format.h"
+#include "render/output/wav_file.h"
 #include "render/output/work_queue.h"
 
 namespace clatter {
@@ -31,8 +33,10 @@ class Movie final : public FrameSink {
   static bool knows(const std::string& extension);
 
   void add(Image image, std::vector<PngText> notes) override;
-  /// Does nothing: add() of the last picture of a piece waits for the encoder.
-  void flush() override {}
+  void add_sound(std::span<const StereoSample> samples) override { sound_->append(samples); }
+  std::uint32_t sound_checksum() const override { return sound_ ? sound_->checksum() : 0; }
+  /// Waits for the sound only: add() of the last picture of a piece waits for the encoder.
+  void flush() override;
   /// Joins the pieces to the film at its path. Then removes the pieces of a whole film, and their
   /// folder unless it has files of others.
   void finish(Ending ending) override;
@@ -66,6 +70,7 @@ class Movie final : public FrameSink {
   std::vector<PngText> notes_;             ///< texts of the last picture
   long next_;                              ///< number of the next picture
   long piece_ = 0;                         ///< number of the first picture of the current piece
+  std::optional<WavFile> sound_;           ///< whole sound, beside the pieces; absent: none
   FileDescriptor file_;                    ///< file of the current piece
   std::unique_ptr<ChildProcess> encoder_;  ///< encoder of the current piece; null: not started
   WorkQueue queue_;                        ///< last member: its thread must end first

@@ -29,20 +29,26 @@ std::vector<std::string> video(std::vector<std::string> codec) {
 // checksums. GIF: one palette per frame, because one for the whole film needs all frames in memory.
 const std::array<MovieFormat, 4>& formats() {
   static const std::array<MovieFormat, 4> all = {{
-      {".mp4", "mp4",
+      {".mp4",
+       "mp4",
        video({"-c:v", "libx264", "-preset", "fast", "-crf", "18", "-x264-params",
               "sync-lookahead=0", "-movflags", "+empty_moov+default_base_moof", "-frag_duration",
-              "1000000"})},
-      {".webm", "webm",
+              "1000000"}),
+       {"-c:a", "aac", "-b:a", "192k", "-flags:a", "+bitexact"}},
+      {".webm",
+       "webm",
        video({"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-deadline", "realtime", "-cpu-used",
-              "5", "-row-mt", "1", "-tile-columns", "2"})},
+              "5", "-row-mt", "1", "-tile-columns", "2"}),
+       {"-c:a", "libopus", "-b:a", "160k", "-flags:a", "+bitexact"}},
       {".mkv",
        "matroska",
-       {"-c:v", "ffv1", "-level", "3", "-g", "1", "-slicecrc", "1", "-pix_fmt", "bgr0"}},
+       {"-c:v", "ffv1", "-level", "3", "-g", "1", "-slicecrc", "1", "-pix_fmt", "bgr0"},
+       {"-c:a", "flac", "-flags:a", "+bitexact"}},
       {".gif",
        "gif",
        {"-filter_complex",
-        "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=none"}},
+        "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=none"},
+       {}},
   }};
   return all;
 }
@@ -93,10 +99,13 @@ static std::vector<std::string> quiet(const std::string& encoder) {
   return {encoder, "-v", "error", "-nostdin", "-y"};
 }
 
-// Options for the texts of a film, as the second input after the pictures: a metadata file or a
-// film.
+// The texts of the second input are those of the film.
+static const std::vector<std::string> kTextsOfSecond = {"-map_metadata", "1"};
+
+// Options for the input with the texts of a film, a metadata file or a film. It must be the second
+// input, for kTextsOfSecond.
 static std::vector<std::string> texts_of(const std::filesystem::path& texts) {
-  std::vector<std::string> all = {"-i", name_of(texts), "-map_metadata", "1"};
+  std::vector<std::string> all = {"-i", name_of(texts)};
   if (!find_movie_format(texts.extension())) all.insert(all.begin(), {"-f", "ffmetadata"});
   return all;
 }
@@ -109,6 +118,7 @@ std::vector<std::string> encoding_command(const std::string& encoder, const Movi
   append(all, {"-f", "rawvideo", "-pix_fmt", "rgba", "-video_size", size_text(options.size)});
   append(all, {"-framerate", fmt::format("{:.10g}", options.fps), "-i", "pipe:0"});
   append(all, texts_of(metadata));
+  append(all, kTextsOfSecond);
   append(all, format.encoding);
   append(all, {"-f", format.muxer, name_of(file)});
   return all;
@@ -123,14 +133,19 @@ std::string list_entry(const std::filesystem::path& film) {
 
 std::vector<std::string> joining_command(const std::string& encoder, const MovieFormat& format,
                                          const std::filesystem::path& texts,
+                                         const std::filesystem::path& sound,
                                          const std::filesystem::path& list,
                                          const std::filesystem::path& file) {
   std::vector<std::string> all = quiet(encoder);
   append(all, {"-f", "concat", "-safe", "0", "-i", name_of(list)});
   append(all, texts_of(texts));
+  if (!sound.empty()) append(all, {"-i", name_of(sound)});
+  append(all, kTextsOfSecond);
   append(all, {"-map", "0"});
+  if (!sound.empty()) append(all, {"-map", "2:a"});
   // "+bitexact" leaves out version and random identifiers: equal films are equal files.
   append(all, {"-c", "copy", "-fflags", "+bitexact"});
+  if (!sound.empty()) append(all, format.sound);
   // The bit rate in an mp4 would depend on the pieces.
   if (format.muxer == "mp4") append(all, {"-movflags", "+faststart", "-write_btrt", "0"});
   append(all, {"-f", format.muxer, name_of(file)});

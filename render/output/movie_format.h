@@ -13,6 +13,7 @@ struct MovieFormat {
   std::string extension;              ///< file extension, ".mp4"
   std::string muxer;                  ///< name of the container in ffmpeg
   std::vector<std::string> encoding;  ///< encoding arguments of ffmpeg
+  std::vector<std::string> sound;     ///< of the sound; empty: the format has none
 };
 
 /// The format of a file extension; nullptr: none.
@@ -33,10 +34,12 @@ std::vector<std::string> encoding_command(const std::string& encoder, const Movi
 std::string list_entry(const std::filesystem::path& film);
 
 /// The command that joins films into `file` without encoding, with the texts of a metadata file or
-/// of a film. `list` is a file for ffmpeg's "concat", of list_entry(). The index of an mp4 comes
-/// first, so that it can play while it loads.
+/// of a film, and with the sound of a WAV file unless `sound` is empty. `list` is a file for
+/// ffmpeg's "concat", of list_entry(). The index of an mp4 comes first, so that it can play while
+/// it loads.
 std::vector<std::string> joining_command(const std::string& encoder, const MovieFormat& format,
                                          const std::filesystem::path& texts,
+                                         const std::filesystem::path& sound,
                                          const std::filesystem::path& list,
                                          const std::filesystem::path& file);
 

@@ -77,6 +77,14 @@ PngSequence::PngSequence(std::filesystem::path folder, const SinkOptions& option
       queue_(options.threads, static_cast<std::size_t>(options.threads)) {
   require_earlier_frames(folder_, options);
   make_folder(folder_, options);
+  if (!options.sound) return;
+  const std::filesystem::path sound = folder_ / "sound.wav";
+  if (!options.overwrite && *options.sound == 0 && !options.goes_on &&
+      std::filesystem::exists(sound)) {
+    throw UserError({folder_.string()}, "has a sound already: sound.wav",
+                    "give another folder, or --overwrite to replace it");
+  }
+  sound_.emplace(sound, *options.sound, options.sound_checksum);
 }
 
 void PngSequence::add(Image image, std::vector<PngText> notes) {
@@ -92,6 +100,7 @@ void PngSequence::add(Image image, std::vector<PngText> notes) {
 void PngSequence::flush() {
   try {
     queue_.drain();
+    if (sound_) sound_->flush();
   } catch (const RunError& error) {
     fail(error);
   }

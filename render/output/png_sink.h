@@ -1,7 +1,10 @@
 #pragma once
 
+#include <optional>
+
 #include "engine/error.h"
 #include "render/output/frame_sink.h"
+#include "render/output/wav_file.h"
 #include "render/output/work_queue.h"
 
 namespace clatter {
@@ -14,6 +17,8 @@ class PngFile final : public FrameSink {
 
   /// Writes the picture. A later picture replaces it.
   void add(Image image, std::vector<PngText> notes) override;
+  /// A picture has no sound.
+  void add_sound(std::span<const StereoSample>) override {}
   void flush() override {}
   void finish(Ending) override {}
 
@@ -22,8 +27,8 @@ class PngFile final : public FrameSink {
   std::vector<PngText> texts_;
 };
 
-/// A folder of pictures, DIR/frame_000000.png etc., encoded by worker threads. Written pictures
-/// always remain.
+/// A folder of pictures, DIR/frame_000000.png etc., encoded by worker threads. Its sound is
+/// DIR/sound.wav. Written pictures always remain.
 class PngSequence final : public FrameSink {
  public:
   /// Creates the folder. Throws UserError if earlier frames are missing, or if frames of these
@@ -32,6 +37,8 @@ class PngSequence final : public FrameSink {
   PngSequence(std::filesystem::path folder, const SinkOptions& options);
 
   void add(Image image, std::vector<PngText> notes) override;
+  void add_sound(std::span<const StereoSample> samples) override { sound_->append(samples); }
+  std::uint32_t sound_checksum() const override { return sound_ ? sound_->checksum() : 0; }
   void flush() override;
   void finish(Ending) override { flush(); }
 
@@ -40,8 +47,9 @@ class PngSequence final : public FrameSink {
 
   std::filesystem::path folder_;
   std::vector<PngText> texts_;
-  long next_;        ///< number of the next picture
-  WorkQueue queue_;  ///< last member: its threads must end first
+  long next_;                     ///< number of the next picture
+  std::optional<WavFile> sound_;  ///< DIR/sound.wav; absent: none
+  WorkQueue queue_;               ///< last member: its threads must end first
 };
 
 }  // namespace clatter

@@ -1,0 +1,43 @@
+#include "engine/publish/click_recorder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace clatter {
+
+template <int D>
+void ClickRecorder<D>::follow(Simulation<D>& next) {
+  simulation_ = &next;
+  next.add_observer(*this);
+}
+
+template <int D>
+std::vector<Click> ClickRecorder<D>::take() {
+  return std::exchange(clicks_, {});
+}
+
+template <int D>
+void ClickRecorder<D>::on_collision(const PairCollision<D>& collision) {
+  const ParticleChange<D>& first = collision.particles[0];
+  add(first.position - 0.5 * collision.separation, first.gain.momentum, 0.5);
+}
+
+template <int D>
+void ClickRecorder<D>::on_wall(const WallCollision<D>& collision) {
+  add(collision.particle.position, collision.particle.gain.momentum, 1.0);
+}
+
+template <int D>
+void ClickRecorder<D>::add(const Vec<D>& contact, const Vec<D>& momentum, double reduced_mass) {
+  const Model<D>& model = simulation_->model();
+  const double square = momentum.squaredNorm();
+  const double place = model.wrapped(contact)[0] / model.box[0];
+  clicks_.push_back({simulation_->time(), std::clamp(place, 0.0, 1.0), std::sqrt(square),
+                     square / (8.0 * reduced_mass)});
+}
+
+template class ClickRecorder<2>;
+template class ClickRecorder<3>;
+
+}  // namespace clatter

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/dynamics/observer.h"
+#include "engine/dynamics/simulation.h"
+
+namespace clatter {
+
+/// The sound of a collision.
+struct Click {
+  double time = 0.0;     ///< simulation time
+  double place = 0.5;    ///< x of the contact as a share of the box, 0..1
+  double impulse = 0.0;  ///< magnitude J
+  /// J^2 / 8 mu, with the reduced mass mu of both partners. In an elastic collision it is the
+  /// energy of the relative motion along the impulse.
+  double energy = 0.0;
+
+  /// Visits the members that a checkpoint keeps.
+  template <class Archive>
+  void visit(Archive& io) {
+    io(time, place, impulse, energy);
+  }
+};
+
+/// Observer that lists the collisions of a run as clicks, between particles and with walls.
+template <int D>
+class ClickRecorder final : private Observer<D> {
+ public:
+  /// Observes the next simulation of the run.
+  void follow(Simulation<D>& next);
+  /// The clicks since the last call, in the order of the events.
+  std::vector<Click> take();
+
+ private:
+  void on_collision(const PairCollision<D>& collision) override;
+  void on_wall(const WallCollision<D>& collision) override;
+  void add(const Vec<D>& contact, const Vec<D>& momentum, double reduced_mass);
+
+  const Simulation<D>* simulation_ = nullptr;
+  std::vector<Click> clicks_;
+};
+
+extern template class ClickRecorder<2>;
+extern template class ClickRecorder<3>;
+
+}  // namespace clatter

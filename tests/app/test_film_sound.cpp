@@ -1,0 +1,202 @@
+// The sound of films, with the command line.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "tests/app/film_scene.h"
+#include "tests/app/tables.h"
+
+namespace clatter {
+
+using testing::table_in;
+
+namespace {
+
+using Sample = std::array<std::int16_t, 2>;
+
+// The samples of a WAV file with a header of 44 bytes.
+std::vector<Sample> samples_in(const std::string& bytes) {
+  REQUIRE(bytes.size() > 44);
+  CHECK(bytes.substr(0, 4) == "RIFF");
+  std::vector<Sample> samples((bytes.size() - 44) / sizeof(Sample));
+  std::memcpy(samples.data(), bytes.data() + 44, samples.size() * sizeof(Sample));
+  return samples;
+}
+
+// 150 frames, in three pieces. The laws change at t = 4.
+const std::string kFilm =
+    "clatter render scene.toml --size 64x48 --fps 10 --quiet --speed 1 --sound ";
+
+void write_scene(const Shell& shell) {
+  write_film_scene(shell, "", "[[change]]\ntime = 4.0\nset = { \"walls.left.stroke\" = 1.0 }\n");
+}
+
+}  // namespace
+
+TEST_CASE("Film sound: a click is heard at the sample, on the side and as loud as its collision") {
+  constexpr double kFrom = 1.0, kSpeed = 0.2;
+  const Shell shell;
+  shell.write(
+      "few.toml",
+      "title = \"Few\"\nbox.size = [20, 15]\nparticles = { count = 10, restitution = 0.9 }\n"
+      "walls.left = { kind = \"sinusoidal\", stroke = 0.2, frequency = 1.0 }\n"
+      "walls.right = { kind = \"static\" }\n"
+      "[[change]]\ntime = 6.0\nset = { \"particles.restitution\" = 0.7 }\n");
+  REQUIRE(shell
+              .run("clatter measure few.toml --seed 3 --quiet --until 30 --events e.csv "
+                   "--out r.json")
+              .code == 0);
+  REQUIRE(shell
+              .run("clatter render few.toml --seed 3 --quiet --size 64x48 --fps 7 --from 1 "
+                   "--to 30 --speed 0.2 --sound --out d")
+              .code == 0);
+  const std::vector<Sample> samples = samples_in(shell.read("d/sound.wav"));
+  CHECK(samples.size() == 145 * 48000);
+  const nlohmann::json log = table_in(shell.read("e.csv")).columns;
+  const std::vector<double> times = log["time"];
+  long last = -48000;
+  int heard = 0;
+  std::vector<double> loudness;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const auto expected = std::lround(std::floor((times[i] - kFrom) / kSpeed * 48000));
+    if (expected < 0) continue;
+    const bool apart = expected - last > 16000;
+    last = expected;
+    if (!apart || expected + 10 > static_cast<long>(samples.size())) continue;
+    CAPTURE(times[i]);
+    // Silence before the onset.
+    const auto begin = samples.begin() + std::max(0L, expected - 4800);
+    const auto onset =
+        std::find_if(begin, samples.end(), [](const Sample& sample) { return sample != Sample{}; });
+    CHECK(std::abs(onset - samples.begin() - expected) <= 1);
+    const double left = (*onset)[0], right = (*onset)[1];
+    const bool wall = log["partner_position_x"][i].is_null();
+    const double x = log["position_x"][i];
+    const double place = (wall ? x : 0.5 * (x + log["partner_position_x"][i].get<double>())) / 20.0;
+    CHECK(right * right / (left * left + right * right) == doctest::Approx(place).epsilon(0.03));
+    const double impulse =
+        std::hypot(log["impulse_x"][i].get<double>(), log["impulse_y"][i].get<double>());
+    const double energy = impulse * impulse / (wall ? 8.0 : 4.0);
+    loudness.push_back((left * left + right * right) / energy);
+    ++heard;
+  }
+  CHECK(heard >= 10);
+  CHECK(*std::ranges::max_element(loudness) / *std::ranges::min_element(loudness) < 1.02);
+}
+
+TEST_CASE(
+    "Film sound: each format has an audio stream as long as the film, and pictures as before") {
+  const Shell shell;
+  write_scene(shell);
+  const auto pictures = [&](const std::string& name) {
+    return shell.run("ffmpeg -v error -i " + name + " -map 0:v -f framemd5 - | grep -v '#'").out;
+  };
+  for (const std::string name : {"v.mp4", "v.webm", "v.mkv"}) {
+    CAPTURE(name);
+    const Outcome film = shell.run(kFilm + "--to 15 --out " + name);
+    CAPTURE(film.err);
+    REQUIRE(film.code == 0);
+    CHECK(shell
+              .run("ffprobe -v error -select_streams a -show_entries stream=sample_rate,channels "
+                   "-of csv=p=0 " +
+                   name)
+              .out == "48000,2\n");
+    const std::string decoded = shell.run("ffmpeg -v error -i " + name + " -f s16le - | wc -c").out;
+    CHECK(std::abs(std::stod(decoded) / (4 * 48000) - 15.0) < 0.05);
+    CHECK(shell.run(kFilm.substr(0, kFilm.find("--sound")) + "--to 15 --out silent-" + name).code ==
+          0);
+    CHECK(shell.run("ffprobe -v error -show_entries stream=codec_type -of csv=p=0 silent-" + name)
+              .out == "video\n");
+    const std::string with = pictures(name);
+    CHECK(std::ranges::count(with, '\n') == 150);
+    CHECK((with == pictures("silent-" + name)));
+  }
+  // FLAC is lossless.
+  REQUIRE(shell.run(kFilm + "--to 15 --out d").code == 0);
+  CHECK(shell
+            .run("ffmpeg -v error -i v.mkv -f s16le mkv.raw && tail -c +45 d/sound.wav | "
+                 "cmp - mkv.raw")
+            .code == 0);
+}
+
+TEST_CASE("Film sound: a film with sound that was killed is resumed to the same bytes") {
+  const Shell shell;
+  write_scene(shell);
+  for (const std::string out : {"film.mp4", "film"}) {
+    CAPTURE(out);
+    const std::string line = kFilm + "--to 15 --out " + out + " ";
+    REQUIRE(shell.run(line + "&& mv " + out + " kept").code == 0);
+    for (const std::string number : {"20", "70", "130"}) {
+      CAPTURE(number);
+      // The run is killed as soon as this file exists, later than its first checkpoint.
+      const std::string seen =
+          out == "film" ? "film/frame_000" + std::string(3 - number.size(), '0') + number + ".png"
+                        : "film.mp4.part/000060.mp4";
+      shell.run(line + "--checkpoint c --checkpoint-every 0.01 & pid=$!\nuntil [ -e " + seen +
+                " -a -e c ] || ! kill -0 $pid; do :; done; kill -9 $pid; wait $pid");
+      // The kill may come while the checkpoint is replaced.
+      REQUIRE(shell.run("[ -e c ] || mv c.previous c").code == 0);
+      const Outcome outcome = shell.run(line + "--resume c");
+      CAPTURE(outcome.err);
+      CHECK(outcome.code == 0);
+      CHECK(outcome.err.empty());  // not drawn again from the beginning
+      // Unfinished pictures of a killed run stay, with names that begin with a dot.
+      CHECK(shell.run("diff -r -x '.*' " + out + " kept").code == 0);
+      shell.run("rm -rf " + out + " " + out + ".part c c.previous");
+    }
+    shell.run("rm -rf kept");
+  }
+}
+
+TEST_CASE("Film sound: a film that is continued for longer has the sound of one long film") {
+  const Shell shell;
+  write_scene(shell);
+  REQUIRE(shell.run(kFilm + "--to 15 --out long").code == 0);
+  REQUIRE(shell.run(kFilm + "--to 7 --out film --checkpoint c").code == 0);
+  CHECK(samples_in(shell.read("film/sound.wav")).size() == 7 * 48000);
+  const Outcome outcome =
+      shell.run("clatter render scene.toml --quiet --resume c --to 15 --out film");
+  CHECK(outcome.code == 0);
+  CHECK(outcome.err.empty());  // not drawn again from the beginning
+  CHECK(shell.run("cmp film/sound.wav long/sound.wav").code == 0);
+}
+
+TEST_CASE("Film sound: a resumed film whose sound was changed is drawn again") {
+  const Shell shell;
+  write_scene(shell);
+  REQUIRE(shell.run(kFilm + "--to 7 --out film --checkpoint c && cp -r film kept").code == 0);
+  shell.run("printf 'xx' | dd of=film/sound.wav bs=1 seek=100000 conv=notrunc 2> /dev/null");
+  REQUIRE(shell.run("cmp film/sound.wav kept/sound.wav").code == 1);
+  const Outcome outcome = shell.run("clatter render scene.toml --resume c --to 7 --out film");
+  CHECK(outcome.code == 0);
+  CHECK(says(outcome.err, "is not the sound of the film"));
+  CHECK(shell.run("cmp film/sound.wav kept/sound.wav").code == 0);
+}
+
+TEST_CASE("Film sound: sound that a film cannot have is refused") {
+  const Shell shell;
+  write_scene(shell);
+  const std::string line = "clatter render scene.toml --size 64x48 --sound ";
+  check_refused(shell, line + "--out a.gif", {"--sound", "a GIF has no sound"});
+  check_refused(shell, line + "--out a.png", {"--sound", "one picture has no sound"});
+  for (const std::string part : {"--frames 0:5", "--slurm 2", "--join ."}) {
+    check_refused(shell, line + "--out a.mp4 " + part, {"--sound", "made in parts", "--frames"});
+  }
+  check_refused(shell, line + "--fps 1 --to 30000 --speed 1 --out a.mp4", {"--sound", "6 hours"});
+  REQUIRE(shell
+              .run("clatter render scene.toml --quiet --size 64x48 --fps 10 --to 0.5 --speed 1 "
+                   "--out d --checkpoint c")
+              .code == 0);
+  check_refused(shell, "clatter render scene.toml --resume c --to 1 --out d --sound",
+                {"--sound", "the film of the checkpoint has no sound"});
+  // The sound of another film is not replaced unless asked.
+  REQUIRE(shell.run("mkdir e && echo > e/sound.wav").code == 0);
+  check_refused(shell, line + "--quiet --fps 10 --to 0.5 --speed 1 --out e",
+                {"sound.wav", "--overwrite"});
+  CHECK(shell.run(line + "--quiet --fps 10 --to 0.5 --speed 1 --out e --overwrite").code == 0);
+}
+
+}  // namespace clatter
