@@ -196,12 +196,12 @@ TEST_CASE("Commands: every command explains its flags, and only those") {
   };
   const std::map<std::string, std::set<std::string>> commands = {
       {"view", with(scene, {"--size", "--backend", "--playlist", "--script-log"})},
-      {"render",
-       with(with(scene, run),
-            {"--out",         "--quality",   "--size",        "--fps",       "--from",
-             "--to",          "--speed",     "--supersample", "--shutter",   "--no-overlay",
-             "--transparent", "--overwrite", "--frames",      "--threads",   "--backend",
-             "--join",        "--slurm",     "--time",        "--partition", "--dry-run"})},
+      {"render", with(with(scene, run),
+                      {"--out",         "--quality", "--size",        "--fps",     "--from",
+                       "--to",          "--speed",   "--supersample", "--shutter", "--no-overlay",
+                       "--transparent", "--sound",   "--overwrite",   "--frames",  "--threads",
+                       "--backend",     "--join",    "--slurm",       "--time",    "--partition",
+                       "--dry-run"})},
       {"measure", with(with(scene, run),
                        {"--out", "--csv", "--vtk", "--hdf5", "--save-state", "--accuracy",
                         "--accuracy-of", "--replicas", "--threads", "--trajectory", "--every",
