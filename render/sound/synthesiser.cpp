@@ -98,10 +98,11 @@ double Synthesiser::limited(double level) {
 
 void Synthesiser::ring(int pitch, std::span<const Strike> strikes,
                        std::vector<std::array<double, 2>>& mix) {
-  const auto [real, imaginary] = rotations_[static_cast<std::size_t>(pitch)];
+  const Rotation& by = rotations_[static_cast<std::size_t>(pitch)];
   auto& [left, right] = resonators_[static_cast<std::size_t>(pitch)];
-  const auto turn = [&](std::array<double, 2>& vector) {
-    vector = {vector[0] * real - vector[1] * imaginary, vector[0] * imaginary + vector[1] * real};
+  const auto turn = [&by](std::array<double, 2>& vector) {
+    vector = {vector[0] * by.real - vector[1] * by.imaginary,
+              vector[0] * by.imaginary + vector[1] * by.real};
   };
   const auto size = [](const std::array<double, 2>& vector) {
     return std::max(std::abs(vector[0]), std::abs(vector[1]));
