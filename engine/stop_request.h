@@ -9,8 +9,8 @@ namespace clatter {
 /// Thrown by long work that has found a request to stop. It is no error and has no message.
 struct Interrupted {};
 
-/// Short steps of work, of about a microsecond each, between two questions whether to stop. A request
-/// may read a clock, which takes longer than such a step in browsers.
+/// Number of short steps of work, of about a microsecond each, between two questions whether to
+/// stop. The answer may need a clock, which takes longer than such a step in browsers.
 inline constexpr unsigned kStepsPerQuestion = 16;
 
 /// Whether long work must stop. Work asks often and on several threads, so the answer must be fast

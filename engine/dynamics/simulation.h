@@ -140,8 +140,8 @@ class Simulation {
   std::deque<Timer> timers_;  // keep their addresses while an action adds timers
   EventLoop<D> loop_;
   std::unique_ptr<Preparation> preparation_;  // null: complete
-  std::unique_ptr<Foresight<D>> foresight_;  // null: one thread, or a small gas
-  bool in_tiles_ = false;                    // whether foresight_ finds the events now
+  std::unique_ptr<Foresight<D>> foresight_;   // null: one thread, or a small gas
+  bool in_tiles_ = false;                     // whether foresight_ finds the events now
   int failures_ = 0;     // bases in succession on which tiles had no certificate
   int until_tried_ = 0;  // moves of the base before tiles are tried again
 };

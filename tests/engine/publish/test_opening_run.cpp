@@ -1,8 +1,7 @@
-#include "engine/publish/opening_run.h"
-
 #include <doctest/doctest.h>
 
 #include "engine/error.h"
+#include "engine/publish/opening_run.h"
 #include "engine/scene/scene_file.h"
 
 using namespace clatter;
