@@ -34,8 +34,8 @@ class NearCells {
   std::size_t cells() const { return static_cast<std::size_t>(cells_.prod()); }
   /// Sorts particles by their positions in the box.
   void sort(const std::vector<Vec<D>>& positions);
-  /// [entries] coordinates of particles and images along an axis; infinite in gaps between rows.
-  const std::vector<double>& coordinates(int axis) const { return coordinates_[axis]; }
+  /// [axis][entries] coordinates of particles and images; infinite in gaps between rows.
+  const std::array<std::vector<double>, D>& coordinates() const { return coordinates_; }
 
   /// Calls visit(entry, run) for each run of each particle, at entry `entry`. All runs together
   /// have each pair within the range once.

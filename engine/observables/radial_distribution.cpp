@@ -44,7 +44,9 @@ RadialDistribution<D>::RadialDistribution(const Simulation<D>& simulation,
       width_((range_ - simulation.model().diameter) / settings.bins),
       cells_(simulation.model(), simulation.particles().size(), range_),
       contact_weights_(contact_weights(width_, bins_)),
-      single_precision_(range_ * std::numeric_limits<float>::epsilon() < 1e-3 * width_) {
+      single_precision_((simulation.model().box.maxCoeff() + range_) *
+                            std::numeric_limits<float>::epsilon() <
+                        1e-3 * width_) {
   const auto count = static_cast<double>(simulation.particles().size());
   const double pairs = 0.5 * count * (count - 1.0);
   for (std::size_t bin = 0; bin < bins_; ++bin) {
@@ -83,66 +85,88 @@ double RadialDistribution<D>::edge(std::size_t bin) const {
 // Bins of the distances of particles from `own`: [count] coordinates along each axis. Rounding may
 // put a contact below the diameter.
 template <typename Real, int D>
-[[gnu::always_inline]] static inline void find_bins(const Vec<D>& own,
-                                                    const std::array<const double*, D>& others,
+[[gnu::always_inline]] static inline void find_bins(const std::array<Real, D>& own,
+                                                    const std::array<const Real*, D>& others,
                                                     Real diameter, Real per_distance, Real last,
                                                     std::size_t count, int* bins) {
   for (std::size_t k = 0; k < count; ++k) {
-    double square = 0.0;
+    Real square = 0;
     for (int axis = 0; axis < D; ++axis) {
-      const double apart = own[axis] - others[axis][k];
+      const Real apart = own[axis] - others[axis][k];
       square += apart * apart;
     }
-    const Real bin = (std::sqrt(static_cast<Real>(square)) - diameter) * per_distance;
+    const Real bin = (std::sqrt(square) - diameter) * per_distance;
     bins[k] = static_cast<int>(std::min(last, std::max(Real{0}, bin)));
   }
 }
 
-// Runs are extended to whole vectors.
+// Runs are extended to whole vectors. The next run replaces the bins of the extension.
 template <int D>
 template <typename Real>
-[[gnu::always_inline]] inline void RadialDistribution<D>::count_all() {
-  constexpr std::size_t kLanes = 4;
+[[gnu::always_inline]] inline void RadialDistribution<D>::count_all(
+    const Coordinates<Real>& coordinates) {
+  constexpr std::size_t kLanes = 32 / sizeof(Real), kBatch = 512;
   static_assert(kLanes <= NearCells<D>::kPadding);
   const auto diameter = static_cast<Real>(simulation_.model().diameter);
   const auto per_distance = static_cast<Real>(1.0 / width_);
   const auto last = static_cast<Real>(kBinShare * bins_);
-  cells_.each_run([&](std::size_t,
-                      const typename NearCells<D>::Run& run) __attribute__((always_inline)) {
-    const std::size_t pairs = (run.end - run.begin + kLanes - 1) / kLanes * kLanes;
-    if (bins_of_pairs_.size() < pairs) bins_of_pairs_.resize(pairs);
-    std::array<const double*, D> others;
-    for (int axis = 0; axis < D; ++axis) others[axis] = &cells_.coordinates(axis)[run.begin];
-    find_bins<Real, D>(run.from, others, diameter, per_distance, last, pairs,
-                       bins_of_pairs_.data());
+  std::size_t found = 0;
+  const auto count_found = [&]() __attribute__((always_inline)) {
 #pragma GCC unroll 4
-    for (std::size_t k = 0; k < pairs; ++k) ++counts_[static_cast<std::size_t>(bins_of_pairs_[k])];
-  });
+    for (std::size_t k = 0; k < found; ++k) ++counts_[static_cast<std::size_t>(bins_of_pairs_[k])];
+    found = 0;
+  };
+  cells_.each_run([&](std::size_t, const typename NearCells<D>::Run& run)
+                      __attribute__((always_inline)) {
+                        const std::size_t pairs = run.end - run.begin;
+                        const std::size_t whole = (pairs + kLanes - 1) / kLanes * kLanes;
+                        if (bins_of_pairs_.size() < found + whole)
+                          bins_of_pairs_.resize(found + whole);
+                        std::array<Real, D> own;
+                        std::array<const Real*, D> others;
+                        for (int axis = 0; axis < D; ++axis) {
+                          own[axis] = static_cast<Real>(run.from[axis]);
+                          others[axis] = &coordinates[axis][run.begin];
+                        }
+                        find_bins<Real, D>(own, others, diameter, per_distance, last, whole,
+                                           bins_of_pairs_.data() + found);
+                        found += pairs;
+                        if (found >= kBatch) count_found();
+                      });
+  count_found();
 }
 
 #if defined(__x86_64__)
 template <int D>
 template <typename Real>
-[[gnu::target("avx2")]] void RadialDistribution<D>::count_all_avx2() {
-  count_all<Real>();
+[[gnu::target("avx2")]] void RadialDistribution<D>::count_all_avx2(
+    const Coordinates<Real>& coordinates) {
+  count_all<Real>(coordinates);
 }
 #endif
 
 // Wider vectors have equal results.
 template <int D>
 template <typename Real>
-void RadialDistribution<D>::count() {
+void RadialDistribution<D>::count(const Coordinates<Real>& coordinates) {
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2")) return count_all_avx2<Real>();
+  if (__builtin_cpu_supports("avx2")) return count_all_avx2<Real>(coordinates);
 #endif
-  count_all<Real>();
+  count_all<Real>(coordinates);
 }
 
 template <int D>
 void RadialDistribution<D>::sample() {
   cells_.sort(simulation_.positions());
   samples_ += 1.0;
-  single_precision_ ? count<float>() : count<double>();
+  if (!single_precision_) return count(cells_.coordinates());
+  for (int axis = 0; axis < D; ++axis) {
+    const std::vector<double>& exact = cells_.coordinates()[axis];
+    rounded_[axis].resize(exact.size());
+    std::transform(exact.begin(), exact.end(), rounded_[axis].begin(),
+                   [](double coordinate) { return static_cast<float>(coordinate); });
+  }
+  count(rounded_);
 }
 
 template <int D>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -32,14 +33,16 @@ class RadialDistribution final : public Observable {
   // Pairs beyond the range are counted too, in further bins. One counter for all would be slower.
   static constexpr std::size_t kBinShare = 4;
 
-  // Distances have the precision of Real.
+  // Coordinates along each axis: [axis][entries of cells_]. Distances have the precision of Real.
   template <typename Real>
-  void count();
+  using Coordinates = std::array<std::vector<Real>, D>;
   template <typename Real>
-  [[gnu::always_inline]] inline void count_all();
+  void count(const Coordinates<Real>& coordinates);
+  template <typename Real>
+  [[gnu::always_inline]] inline void count_all(const Coordinates<Real>& coordinates);
 #if defined(__x86_64__)
   template <typename Real>
-  void count_all_avx2();
+  void count_all_avx2(const Coordinates<Real>& coordinates);
 #endif
   double edge(std::size_t bin) const;
   double expected_share(double low, double high) const;
@@ -51,8 +54,9 @@ class RadialDistribution final : public Observable {
   NearCells<D> cells_;
   std::vector<double> expected_;         // [bins] pairs of independent particles
   std::vector<double> contact_weights_;  // of the values near contact; empty: too few bins
-  std::vector<int> bins_of_pairs_;       // of a run
-  bool single_precision_;                // suffices for distances
+  std::vector<int> bins_of_pairs_;       // to be counted
+  bool single_precision_;                // suffices for coordinates
+  Coordinates<float> rounded_;           // empty unless single_precision_
   double samples_ = 0.0;
   std::vector<std::uint64_t> counts_;  // [kBinShare bins + 1] pairs; the last beyond all
 };
