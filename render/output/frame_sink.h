@@ -49,8 +49,9 @@ class FrameSink {
 
 /// Options of a sink.
 struct SinkOptions {
-  Size size;          ///< size of every picture
-  double fps = 30.0;  ///< pictures per second of a film
+  Size size;                 ///< size of every picture
+  double fps = 30.0;         ///< pictures per second of a film
+  bool transparent = false;  ///< whether a film keeps the alpha of the pictures
   std::vector<PngText>
       texts;               ///< texts of the file; a film stores "Title" and a comment with the rest
   bool overwrite = false;  ///< may replace existing pictures or pieces
@@ -77,9 +78,10 @@ class DamagedPiece : public UserError {
 /// one, or its name has no extension.
 void require_folder_format(const std::filesystem::path& path);
 
-/// Opens the sink for a path: a film (.mp4, .webm, .gif, .mkv), one picture (.png), or a folder for
-/// a sequence of pictures. Throws UserError for another extension, if earlier pictures are missing,
-/// or if existing pictures would be replaced. Throws DamagedPiece for a film or a folder.
+/// Opens the sink for a path: a film (.mp4, .mov, .webm, .gif, .mkv), one picture (.png), or a
+/// folder for a sequence of pictures. Throws UserError for another extension, if earlier pictures
+/// are missing, or if existing pictures would be replaced. Throws DamagedPiece for a film or a
+/// folder.
 std::unique_ptr<FrameSink> open_sink(const std::filesystem::path& path, const SinkOptions& options);
 
 }  // namespace clatter
