@@ -49,9 +49,8 @@ class FrameSink {
 
 /// Options of a sink.
 struct SinkOptions {
-  Size size;                 ///< size of every picture
-  double fps = 30.0;         ///< pictures per second of a film
-  bool transparent = false;  ///< whether a film keeps the alpha of the pictures
+  Size size;          ///< size of every picture
+  double fps = 30.0;  ///< pictures per second of a film
   std::vector<PngText>
       texts;               ///< texts of the file; a film stores "Title" and a comment with the rest
   bool overwrite = false;  ///< may replace existing pictures or pieces
@@ -66,6 +65,7 @@ struct SinkOptions {
   std::optional<long> sound = {};
   std::uint32_t sound_checksum = 0;  ///< of these samples
   StopRequest stop = {};             ///< once made, an encoder that hangs is an error
+  bool transparent = false;          ///< whether a film keeps the alpha of the pictures
 };
 
 /// A complete piece of a restarted film, or an earlier picture of a folder, differs from its

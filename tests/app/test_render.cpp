@@ -180,7 +180,8 @@ TEST_CASE("Render: a picture may have no background, and an mp4 must have one") 
 // only the decoder of libvpx reads.
 TEST_CASE("Render: a transparent film has the alpha and the colours of the pictures") {
   const Shell shell;
-  const std::string line = kRender + "--speed 1 --fps 50 --to 1.3 --transparent --out ";
+  const std::string line =
+      kRender + "--speed 1 --fps 50 --to 1.3 --transparent --no-overlay --out ";
   REQUIRE(shell.run(line + "frames").code == 0);
   // The similarity of the channels of a film with those of the folder, from 0 to 1. Colours count
   // as far as they are visible.
