@@ -359,7 +359,7 @@ TEST_CASE("Overlay: the captions of a time are over the lower part of the gas, o
     };
     const auto both = changed(5.0), second = changed(30.0);
     REQUIRE(second.size() > 500);
-    CHECK(both.size() > second.size() + 500);
+    CHECK(both.size() > second.size() + 300);
     CHECK(both.front() > 0.5);
     CHECK(both.front() < second.front());
     CHECK(both.back() == second.back());
