@@ -237,7 +237,7 @@ class Filming {
       gl_.Disable(GL_DEPTH_TEST);
     }
     spend(times_, kOverlay, gl_, [&] {
-      overlay_.draw(snapshot, projection, legends, {"Bench", ""}, theme);
+      overlay_.draw(snapshot, projection, view_, legends, {"Bench", ""});
     });
   }
 

@@ -176,9 +176,10 @@ void require_format(const RenderOptions& options, const FilmState& film) {
   }
   if (film.sound) require_sound(options, film.times);
   const std::string extension = options.extension();
-  if (!options.transparent || extension.empty() || extension == ".png") return;
-  throw UserError({"--transparent", 0, 0}, "only PNG pictures can be transparent",
-                  "write to a FILE.png or to a folder, or omit --transparent");
+  if (!film.transparent || extension.empty() || extension == ".png") return;
+  if (Movie::has_alpha(extension)) return;
+  throw UserError({"--transparent", 0, 0}, "a film " + extension + " cannot be transparent",
+                  "write a film .mov, .webm or .mkv, a FILE.png or a folder, or omit the flag");
 }
 
 void require_drawable(const FilmState& film, const Gl& gl) {
@@ -276,6 +277,7 @@ SinkOptions sink_options(const RenderOptions& options, const Scene& scene, std::
   SinkOptions sink;
   sink.size = film.size;
   sink.fps = film.times.fps;
+  sink.transparent = film.transparent;
   sink.texts = picture_texts(scene, seed);
   sink.threads = options.threads.value_or(kEncodingThreads);
   sink.overwrite = options.overwrite;
@@ -450,8 +452,9 @@ void add_render_command(CLI::App& program, int& exit_code) {
   command
       ->add_option(
           "--out", options->out,
-          "The file extension selects the format. Films end in .mp4, .webm, .gif, or .mkv "
-          "(without loss). One picture ends in .png. A folder gets a picture for each frame.")
+          "The file extension selects the format. Films end in .mp4, .webm, .gif, .mov (ProRes, "
+          "for editing), or .mkv (without loss). One picture ends in .png. A folder gets a picture "
+          "for each frame.")
       ->required()
       ->type_name("FILE|DIR");
   command
@@ -505,7 +508,7 @@ void add_render_command(CLI::App& program, int& exit_code) {
   command->add_flag("--no-overlay", options->no_overlay,
                     "Draw no title, time, colour bar and scale bar.");
   command->add_flag("--transparent", options->transparent,
-                    "Draw PNG pictures without a background.");
+                    "Draw no background. For PNG pictures, and for films .mov, .webm and .mkv.");
   command->add_flag("--sound", options->sound,
                     "Give a film the sound of its collisions. A folder gets it as sound.wav.");
   command->add_flag("--overwrite", options->overwrite,

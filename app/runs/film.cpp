@@ -100,6 +100,7 @@ long Film<D>::draw(const FrameRange& frames, FrameSink& sink, Progress& progress
     if (view_.card && state_.times.count > 1) {
       text_.card = card_opacity(*view_.card, static_cast<double>(frame) / state_.times.fps);
     }
+    text_.speed = state_.times.speed;
     const Camera camera = camera_at(view_.camera, snapshot, *state_.camera);
     canvas_.bind();
     try {

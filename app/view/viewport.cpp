@@ -24,8 +24,12 @@ void Viewport::draw(const Frame& frame, const View& view, Size size, double lett
   }
   if (!stale_) return;
   stale_ = false;
-  const OverlayText text{heading ? frame.scene->title : "", heading ? frame.scene->caption : "",
-                         0.0, letters, least};
+  const OverlayText text{heading ? frame.scene->title : "",
+                         heading ? frame.scene->caption : "",
+                         0.0,
+                         letters,
+                         least,
+                         frame.speed};
   if (fits_) camera_ = renderer_.fit(gas, size, view, text);
   if (gas.box.size() == 3) {
     camera_.orbit.azimuth = view.azimuth;

@@ -8,6 +8,7 @@
 #include "engine/error.h"
 #include "engine/physics/lattice.h"
 #include "engine/physics/theory.h"
+#include "engine/scene/marked_text.h"
 #include "engine/scene/scene_document.h"
 #include "engine/scene/text.h"
 
@@ -225,6 +226,19 @@ static void check_camera(const Scene& scene, const toml::table& root, const std:
   }
 }
 
+/// Throws unless the marks of all captions are complete.
+static void check_captions(const Scene& scene, const toml::table& root, const std::string& file) {
+  for (std::size_t k = 0; k < scene.view.captions.size(); ++k) {
+    const std::string problem = marked_text(scene.view.captions[k].text).problem;
+    if (problem.empty()) continue;
+    const Place list = place_of(root, "view.captions", file);
+    const Place place =
+        from_override(list) ? list : place_of(*root["view"]["captions"][k].node(), file);
+    throw UserError(place, "in the text of a caption " + problem,
+                    "write T_x, v^2 or T_{refined}, and a backslash before a plain _ or ^");
+  }
+}
+
 /// Throws if the box does not have the axis of the profiles, or of the normal of the plane.
 static void check_axes(const Scene& scene, const toml::table& root, const std::string& file) {
   const auto check = [&](const std::string& key, Axis axis) {
@@ -248,6 +262,7 @@ void check_scene(const Scene& scene, const toml::table& root, const std::string&
   check_kernel(scene, root, file);
   check_observables(scene, root, file);
   check_camera(scene, root, file);
+  check_captions(scene, root, file);
 }
 
 void check_followed(const Scene& scene, const toml::table& root, const std::string& file) {

@@ -606,6 +606,25 @@ void visit_camera(Visitor& io, CameraKey& key, int dimension) {
   }
 }
 
+inline constexpr auto kCaptionKeys = key_table(
+    "view render",
+    {{"text", "",
+      "Text over the picture. `_` and `^` lower and raise the next letter or the letters in "
+      "braces: "
+      "`T_x`, `v^2`, `T_{refined}`. A backslash before such a mark writes the mark."},
+     {"from", "t",
+      "Simulation time at which the text appears. Without a value it is there from the beginning."},
+     {"to", "t",
+      "Simulation time at which the text has disappeared. Without a value it stays to the end."}});
+
+/// The keys of one item of [[view.captions]].
+template <class Visitor>
+void visit_caption(Visitor& io, Caption& caption) {
+  io.value(kCaptionKeys.at("text"), caption.text, Limits{}, kRequired);
+  io.value(kCaptionKeys.at("from"), caption.from, at_least(0.0));
+  io.value(kCaptionKeys.at("to"), caption.to, above(caption.from.value_or(0.0)));
+}
+
 inline constexpr auto kSlabKeys = key_table(
     "view render", {{"axis", "", "Axis perpendicular to the planes."},
                     {"from", "a", "Position of the first plane."},
@@ -674,7 +693,7 @@ inline constexpr auto kViewKeys = key_table(
       "Colours of background, letters, walls and lines. It does not change the size of letters."},
      {"background", "", "Colour of the background. Without a value the theme sets it."},
      {"grid", "", "Grid lines over the box. Their spacing is the length of the scale bar."},
-     {"overlay", "", "Title, time, colour bar and scale bar."},
+     {"overlay", "", "Title, captions, time, colour bar and scale bar."},
      {"trails", "t", "Duration of the particles' trails. Without a value: none."},
      {"card", "s",
       "Time of title and caption at the start of a film, while the gas moves. They fade out in the "
@@ -725,6 +744,8 @@ void visit_view(Visitor& io, View& view, int dimension) {
     io.list("slices", view.slices, [](auto& io, Slice& slice) { visit_slice(io, slice); });
   }
   io.table("lecture", [&](auto& io) { visit_lecture(io, view.lecture); });
+  io.list("captions", view.captions,
+          [](auto& io, Caption& caption) { visit_caption(io, caption); });
   io.list("camera", view.camera,
           [&](auto& io, CameraKey& key) { visit_camera(io, key, dimension); });
 }

@@ -67,6 +67,13 @@ struct CameraKey {
   std::optional<double> elevation = {};  ///< of spheres, degrees; absent: as View::elevation
 };
 
+/// A text over pictures, for some time.
+struct Caption {
+  std::string text;                 ///< see marked_text()
+  std::optional<double> from = {};  ///< simulation time, >= 0; absent: from the beginning
+  std::optional<double> to = {};    ///< simulation time, > from; absent: to the end
+};
+
 /// The part of the box between two planes across an axis.
 struct Slab {
   Axis axis = Axis::Z;
@@ -107,7 +114,7 @@ struct View {
   Theme theme = Theme::Dark;       ///< of background, letters, walls and lines
   std::optional<Rgb> background;   ///< absent: as the theme
   bool grid = false;               ///< lines over the box, spaced by the length of the scale bar
-  bool overlay = true;             ///< time, title, colour bar, scale bar
+  bool overlay = true;             ///< time, title, captions, colour bar, scale bar
   std::optional<double> trails;    ///< duration of the particles' trails, > 0; absent: none
   std::optional<double> card;  ///< seconds of the title card at a film's start, > 0; absent: none
   /// Direction to the viewer of spheres, in degrees: 0, 0 is along z, from the front; azimuth turns
@@ -120,6 +127,7 @@ struct View {
   /// range, 1/a; 0: no volume. With a volume there is no slice unless `slices` has it.
   double volume = 0.0;
   Lecture lecture = {};           ///< parts of the window in lecture mode
+  std::vector<Caption> captions;  ///< in any order; several at one time are below each other
   std::vector<CameraKey> camera;  ///< in order of time; empty: always the whole box
 
   /// Replaces colours and fields of spins: the colour by the speed, the heatmap by none. Returns

@@ -75,7 +75,9 @@ void draw_text(ImDrawList& list, const ImFont& font, ImVec2 place, const Ink& in
                  text.data() + text.size(), wrap);
   };
   // A halo in the background colour keeps the text legible above disks.
-  const ImU32 halo = IM_COL32(ink.halo.red, ink.halo.green, ink.halo.blue, 120);
+  constexpr int kHalo = 120;  // alpha below opaque letters
+  const ImU32 halo =
+      IM_COL32(ink.halo.red, ink.halo.green, ink.halo.blue, kHalo * ink.colour.alpha / 255);
   for (const auto& [dx, dy] : {std::pair(-1, 0), {1, 0}, {0, -1}, {0, 1}}) write(dx, dy, halo);
   write(0, 0, packed(ink.colour));
 }

@@ -9,6 +9,7 @@
 
 #include "render/eye.h"
 #include "render/layers/grid_layer.h"
+#include "render/layers/marked_line.h"
 #include "render/layers/wall_layer.h"
 
 namespace clatter {
@@ -110,13 +111,13 @@ bool over_box(ImVec2 low, ImVec2 high, const Page& page) {
          high.y > page.box_low.y;
 }
 
-// Keeps a text over the box legible.
-void draw_plate(ImDrawList& list, ImVec2 low, ImVec2 high, const Page& page) {
+// Keeps a text over the box legible. `opacity` is that of the text.
+void draw_plate(ImDrawList& list, ImVec2 low, ImVec2 high, const Page& page, double opacity = 1.0) {
   constexpr double kOpacity = 0.8;
   const float room = std::round(kPlate * page.fonts.unit());
   const ImVec2 from(low.x - room, low.y - room), to(high.x + room, high.y + room);
   if (!over_box(from, to, page)) return;
-  list.AddRectFilled(from, to, with_opacity(page.theme.background, kOpacity), room);
+  list.AddRectFilled(from, to, with_opacity(page.theme.background, opacity * kOpacity), room);
 }
 
 void draw_heading(ImDrawList& list, const OverlayText& text, const Page& page) {
@@ -281,6 +282,40 @@ void draw_legends(ImDrawList& list, const Legends& legends, const Faces& area,
   }
 }
 
+// The captions of this time, below each other over the lower part of the gas.
+void draw_captions(ImDrawList& list, const std::vector<Caption>& all, double time, double speed,
+                   const Page& page) {
+  struct Shown {
+    std::vector<MarkedLine> lines;
+    double opacity;
+  };
+  const auto width = static_cast<float>(page.size.width - page.margins.left - page.margins.right);
+  const float gap = std::round(page.fonts.unit());
+  std::vector<Shown> captions;
+  float height = 0.0f;
+  for (const Caption& caption : all) {
+    const double opacity = caption_opacity(caption, time, speed);
+    if (opacity == 0.0) continue;
+    captions.push_back(
+        {marked_lines(caption.text, *page.fonts.title, *page.fonts.text, 0.9f * width), opacity});
+    for (const MarkedLine& line : captions.back().lines) height += line.height;
+    height += gap;
+  }
+  auto y = static_cast<float>(std::round(page.size.height - page.margins.bottom - height));
+  for (const auto& [lines, opacity] : captions) {
+    Ink ink = page.theme.ink();
+    ink.colour.alpha = static_cast<std::uint8_t>(std::lround(255.0 * opacity));
+    for (const MarkedLine& line : lines) {
+      const auto x =
+          std::round(static_cast<float>(page.margins.left) + 0.5f * (width - line.width));
+      draw_plate(list, ImVec2(x, y), ImVec2(x + line.width, y + line.height), page, opacity);
+      draw_marked(list, line, ImVec2(x, y), ink);
+      y += line.height;
+    }
+    y += gap;
+  }
+}
+
 // A line of text in the middle of the picture, with its upper edge at `y`.
 void draw_centred(ImDrawList& list, const ImFont& font, float y, ImU32 colour,
                   const std::string& line, const Page& page) {
@@ -327,9 +362,19 @@ void draw_card(ImDrawList& list, const OverlayText& text, const Page& page) {
 
 }  // namespace
 
+constexpr double kFade = 0.5;  // time in which a text appears or disappears, seconds
+
 double card_opacity(double length, double time) {
-  constexpr double kFade = 0.5;  // seconds
   return std::clamp((length - time) / std::min(kFade, length), 0.0, 1.0);
+}
+
+double caption_opacity(const Caption& caption, double time, double speed) {
+  double fade = kFade * speed;
+  if (caption.to) fade = std::min(fade, (*caption.to - caption.from.value_or(0.0)) / 3.0);
+  double opacity = 1.0;
+  if (caption.from) opacity = std::min(opacity, (time - *caption.from) / fade);
+  if (caption.to) opacity = std::min(opacity, (*caption.to - time) / fade);
+  return std::max(opacity, 0.0);
 }
 
 Overlay::Overlay(const Gl& gl) : gui_(gl), context_(make_gui_context()) {}
@@ -352,9 +397,10 @@ Margins Overlay::margins(const Snapshot& snapshot, Size size, const Legends& leg
   return arrange(snapshot, fonts_for(size, text), kDarkTheme, size, legends, text).margins;
 }
 
-void Overlay::draw(const Snapshot& snapshot, const Projection& projection, const Legends& legends,
-                   const OverlayText& text, const ThemeColours& theme) {
+void Overlay::draw(const Snapshot& snapshot, const Projection& projection, const View& view,
+                   const Legends& legends, const OverlayText& text) {
   const CurrentContext current(context_.get());
+  const ThemeColours theme = theme_of(view);
   const Size size = projection.size;
   Page page = arrange(snapshot, fonts_for(size, text), theme, size, legends, text);
   const Faces box = box_area(snapshot, projection);
@@ -377,6 +423,7 @@ void Overlay::draw(const Snapshot& snapshot, const Projection& projection, const
       draw_column(list, snapshot, projection, page);
       break;
   }
+  draw_captions(list, view.captions, snapshot.time, text.speed, page);
   if (text.card > 0.0) draw_card(list, text, page);
   ImGui::Render();
   gui_.draw(*ImGui::GetDrawData());

@@ -18,14 +18,19 @@ struct OverlayText {
   double card = 0.0;     ///< opacity of a title card over the whole picture, 0..1
   double letters = 1.0;  ///< scale of all text
   double least = 0.0;    ///< smallest size of the text, pixels
+  double speed = 1.0;    ///< simulation time per second, of captions that fade
 };
 
 /// Opacity of a title card `time` seconds after the beginning of a film. The card lasts `length`
 /// seconds and fades out in the last half second.
 double card_opacity(double length, double time);
 
+/// Opacity of a caption at a simulation time. It fades in and out for half a second of a film with
+/// `speed` time units per second, or for a third of its time if that is shorter.
+double caption_opacity(const Caption& caption, double time, double speed);
+
 /// Draws text and scales in the margins of the picture: title, time, temperature, collisions,
-/// colour bars and a scale bar.
+/// captions, colour bars and a scale bar.
 class Overlay {
  public:
   explicit Overlay(const Gl& gl);
@@ -35,8 +40,8 @@ class Overlay {
                   const OverlayText& text);
 
   /// Draws the overlay over a picture of `snapshot`.
-  void draw(const Snapshot& snapshot, const Projection& projection, const Legends& legends,
-            const OverlayText& text, const ThemeColours& theme);
+  void draw(const Snapshot& snapshot, const Projection& projection, const View& view,
+            const Legends& legends, const OverlayText& text);
 
  private:
   /// Loads the fonts for a picture of `size` and for its title. The context must be current.

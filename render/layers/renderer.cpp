@@ -210,7 +210,7 @@ void Renderer::draw(const Snapshot& snapshot, const Camera& camera, Size size, c
   } else {
     draw_averaged(snapshot, projection, view, legends, theme, static_cast<GLuint>(target));
   }
-  if (view.overlay) overlay_.draw(snapshot, projection, legends, text, theme);
+  if (view.overlay) overlay_.draw(snapshot, projection, view, legends, text);
 }
 
 void Renderer::draw_world(const Snapshot& snapshot, const Projection& projection, const View& view,

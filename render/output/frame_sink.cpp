@@ -18,7 +18,7 @@ void require_folder_format(const std::filesystem::path& path) {
   const std::string extension = path.extension();
   if (extension.empty()) return;
   throw UserError({path.string()}, "the format " + extension + " is not supported",
-                  "use .mp4, .webm, .gif, .mkv or .png, or a folder for a sequence of pictures");
+                  "use .mp4, .mov, .webm, .gif, .mkv or .png, or a folder for a sequence of pictures");
 }
 
 std::unique_ptr<FrameSink> open_sink(const std::filesystem::path& path,

@@ -65,6 +65,7 @@ struct SinkOptions {
   std::optional<long> sound = {};
   std::uint32_t sound_checksum = 0;  ///< of these samples
   StopRequest stop = {};             ///< once made, an encoder that hangs is an error
+  bool transparent = false;          ///< whether a film keeps the alpha of the pictures
 };
 
 /// A complete piece of a restarted film, or an earlier picture of a folder, differs from its
@@ -77,9 +78,10 @@ class DamagedPiece : public UserError {
 /// one, or its name has no extension.
 void require_folder_format(const std::filesystem::path& path);
 
-/// Opens the sink for a path: a film (.mp4, .webm, .gif, .mkv), one picture (.png), or a folder for
-/// a sequence of pictures. Throws UserError for another extension, if earlier pictures are missing,
-/// or if existing pictures would be replaced. Throws DamagedPiece for a film or a folder.
+/// Opens the sink for a path: a film (.mp4, .mov, .webm, .gif, .mkv), one picture (.png), or a
+/// folder for a sequence of pictures. Throws UserError for another extension, if earlier pictures
+/// are missing, or if existing pictures would be replaced. Throws DamagedPiece for a film or a
+/// folder.
 std::unique_ptr<FrameSink> open_sink(const std::filesystem::path& path, const SinkOptions& options);
 
 }  // namespace clatter

@@ -156,6 +156,10 @@ bool Movie::knows(const std::string& extension) {
   return find_movie_format(extension) != nullptr;
 }
 
+bool Movie::has_alpha(const std::string& extension) {
+  return knows(extension) && !find_movie_format(extension)->transparent.empty();
+}
+
 std::filesystem::path Movie::piece_path(long first) const {
   return folder_ / fmt::format("{:06}{}", first, format_->extension);
 }

@@ -29,8 +29,10 @@ class Movie final : public FrameSink {
         const std::string& encoder = "ffmpeg");
   ~Movie() override;
 
-  /// True for the extensions ".mp4", ".webm", ".gif" and ".mkv".
+  /// True for the extensions ".mp4", ".mov", ".webm", ".gif" and ".mkv".
   static bool knows(const std::string& extension);
+  /// True for the extensions of films that can be transparent.
+  static bool has_alpha(const std::string& extension);
 
   void add(Image image, std::vector<PngText> notes) override;
   void add_sound(std::span<const StereoSample> samples) override { sound_->append(samples); }

@@ -8,46 +8,74 @@ namespace clatter {
 
 namespace {
 
-// Converts to BT.709 explicitly: by default ffmpeg converts to BT.601, and players assume BT.709.
-// Both codecs store colour at half the resolution, so the sides are padded to even lengths.
-const std::string kEvenSides =
-    "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=0x101418,"
-    "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p";
+// Codecs that store colour at half the resolution need even sides.
+const std::string kEvenSides = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=0x101418,";
+const std::string kEvenClearSides = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=black@0,";
 
-std::vector<std::string> video(std::vector<std::string> codec) {
-  std::vector<std::string> all = {"-vf",          kEvenSides, "-colorspace",      "bt709",
-                                  "-color_trc",   "bt709",    "-color_primaries", "bt709",
-                                  "-color_range", "tv"};
-  all.insert(all.end(), codec.begin(), codec.end());
+using Arguments = std::vector<std::string>;
+
+Arguments with(Arguments all, const Arguments& more) {
+  all.insert(all.end(), more.begin(), more.end());
   return all;
 }
 
+// Converts to BT.709 explicitly: by default ffmpeg converts to BT.601, and players assume BT.709.
+// The encoder of ProRes takes the names of the colours from the pictures.
+Arguments video(const std::string& sides, const std::string& pixels, const Arguments& codec) {
+  return with({"-vf",
+               sides + "scale=out_color_matrix=bt709:out_range=tv,format=" + pixels +
+                   ",setparams=colorspace=bt709:color_trc=bt709:color_primaries=bt709",
+               "-colorspace", "bt709", "-color_trc", "bt709", "-color_primaries", "bt709",
+               "-color_range", "tv"},
+              codec);
+}
+
+const Arguments kVp9 = {"-c:v",    "libvpx-vp9", "-crf",          "24",        "-b:v",
+                        "0",       "-deadline",  "realtime",      "-cpu-used", "5",
+                        "-row-mt", "1",          "-tile-columns", "2"};
+const Arguments kProRes = {"-c:v",           "prores_ks",
+                           "-profile:v",     "4444",
+                           "-alpha_bits",    "16",
+                           "-vendor",        "apl0",
+                           "-movflags",      "+empty_moov+default_base_moof",
+                           "-frag_duration", "1000000"};
+const Arguments kFfv1 = {"-c:v", "ffv1", "-level", "3", "-g", "1", "-slicecrc", "1"};
+
 // mp4: fragments of one second of film, which play even after a crash. The frames depend on timing
 // if x264 looks ahead in a thread of its own: about 1 of 100 encodings of small pictures differed,
-// and 0 of 1600 without this thread. VP9: "realtime" is five
+// and 0 of 1600 without this thread. mov: ProRes 4444, for editing. VP9: "realtime" is five
 // times as fast as "good", with a fifth more bytes at the same quality. FFV1: lossless, with
 // checksums. GIF: one palette per frame, because one for the whole film needs all frames in memory.
-const std::array<MovieFormat, 4>& formats() {
-  static const std::array<MovieFormat, 4> all = {{
+const std::array<MovieFormat, 5>& formats() {
+  static const std::array<MovieFormat, 5> all = {{
       {".mp4",
        "mp4",
-       video({"-c:v", "libx264", "-preset", "fast", "-crf", "18", "-x264-params",
-              "sync-lookahead=0", "-movflags", "+empty_moov+default_base_moof", "-frag_duration",
-              "1000000"}),
+       video(
+           kEvenSides, "yuv420p",
+           {"-c:v", "libx264", "-preset", "fast", "-crf", "18", "-x264-params", "sync-lookahead=0",
+            "-movflags", "+empty_moov+default_base_moof", "-frag_duration", "1000000"}),
+       {},
        {"-c:a", "aac", "-b:a", "192k", "-flags:a", "+bitexact"}},
+      {".mov",
+       "mov",
+       video("", "yuv444p10le", kProRes),
+       video("", "yuva444p10le", kProRes),
+       {"-c:a", "pcm_s16le"}},
       {".webm",
        "webm",
-       video({"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-deadline", "realtime", "-cpu-used",
-              "5", "-row-mt", "1", "-tile-columns", "2"}),
+       video(kEvenSides, "yuv420p", kVp9),
+       video(kEvenClearSides, "yuva420p", with(kVp9, {"-auto-alt-ref", "0"})),
        {"-c:a", "libopus", "-b:a", "160k", "-flags:a", "+bitexact"}},
       {".mkv",
        "matroska",
-       {"-c:v", "ffv1", "-level", "3", "-g", "1", "-slicecrc", "1", "-pix_fmt", "bgr0"},
+       with(kFfv1, {"-pix_fmt", "bgr0"}),
+       with(kFfv1, {"-pix_fmt", "bgra"}),
        {"-c:a", "flac", "-flags:a", "+bitexact"}},
       {".gif",
        "gif",
        {"-filter_complex",
         "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=none"},
+       {},
        {}},
   }};
   return all;
@@ -119,7 +147,7 @@ std::vector<std::string> encoding_command(const std::string& encoder, const Movi
   append(all, {"-framerate", fmt::format("{:.10g}", options.fps), "-i", "pipe:0"});
   append(all, texts_of(metadata));
   append(all, kTextsOfSecond);
-  append(all, format.encoding);
+  append(all, options.transparent ? format.transparent : format.encoding);
   append(all, {"-f", format.muxer, name_of(file)});
   return all;
 }

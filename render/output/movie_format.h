@@ -10,10 +10,11 @@ namespace clatter {
 
 /// A film format of ffmpeg.
 struct MovieFormat {
-  std::string extension;              ///< file extension, ".mp4"
-  std::string muxer;                  ///< name of the container in ffmpeg
-  std::vector<std::string> encoding;  ///< encoding arguments of ffmpeg
-  std::vector<std::string> sound;     ///< of the sound; empty: the format has none
+  std::string extension;                 ///< file extension, ".mp4"
+  std::string muxer;                     ///< name of the container in ffmpeg
+  std::vector<std::string> encoding;     ///< encoding arguments of ffmpeg
+  std::vector<std::string> transparent;  ///< of pictures with alpha; empty: the format has no alpha
+  std::vector<std::string> sound;        ///< of the sound; empty: the format has none
 };
 
 /// The format of a file extension; nullptr: none.
@@ -23,8 +24,8 @@ const MovieFormat* find_movie_format(const std::string& extension);
 /// comment. A file, because a scene may be longer than a command line.
 std::string metadata_file(const std::vector<PngText>& texts);
 
-/// The command that encodes raw RGBA pictures from standard input into `file`, with the texts of
-/// `metadata`. An incomplete file is playable.
+/// The command that encodes raw RGBA pictures, with alpha that is not premultiplied, from standard
+/// input into `file`, with the texts of `metadata`. An incomplete file is playable.
 std::vector<std::string> encoding_command(const std::string& encoder, const MovieFormat& format,
                                           const SinkOptions& options,
                                           const std::filesystem::path& metadata,

@@ -163,7 +163,7 @@ TEST_CASE("Render: a film begins with its title where a card is asked for") {
   for (const int number : {2, 3}) CHECK(frame("card", number) == frame("plain", number));
 }
 
-TEST_CASE("Render: a picture may have no background, a film must have one") {
+TEST_CASE("Render: a picture may have no background, and an mp4 must have one") {
   const Shell shell;
   CHECK(shell.run(kRender + "--to 1 --transparent --out a.png").code == 0);
   // Parts are transparent, parts are opaque.
@@ -174,6 +174,39 @@ TEST_CASE("Render: a picture may have no background, a film must have one") {
   const Outcome film = shell.run(kRender + "--to 1 --transparent --out a.mp4");
   CHECK(film.code == 2);
   CHECK(says(film.err, "--transparent"));
+}
+
+// The film has more than one piece. The alpha of VP9 is a film of its own beside the colours, which
+// only the decoder of libvpx reads.
+TEST_CASE("Render: a transparent film has the alpha and the colours of the pictures") {
+  const Shell shell;
+  const std::string line =
+      kRender + "--speed 1 --fps 50 --to 1.3 --transparent --no-overlay --out ";
+  REQUIRE(shell.run(line + "frames").code == 0);
+  // The similarity of the channels of a film with those of the folder, from 0 to 1. Colours count
+  // as far as they are visible.
+  const auto similarity = [&](const std::string& film, const std::string& channels) {
+    const std::string seen =
+        channels == "alpha" ? "alphaextract" : "premultiply=inplace=1,format=gbrp";
+    const std::string lavfi =
+        "[0]format=gbrap," + seen + "[a];[1]format=gbrap," + seen + "[b];[a][b]ssim";
+    const std::string words =
+        shell
+            .run("ffmpeg " + film + " -framerate 50 -i frames/frame_%06d.png -lavfi '" + lavfi +
+                 "' -f null - 2>&1 | sed -n 's/.*SSIM.*All:\\([0-9.]*\\).*/\\1/p'")
+            .out;
+    return words.empty() ? 0.0 : std::stod(words);
+  };
+  for (const std::string name : {"film.mov", "film.webm", "film.mkv"}) {
+    CAPTURE(name);
+    const Outcome outcome = shell.run(line + name);
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK(probe(shell, name) == "160,120,65\n");
+    const std::string input = (name == "film.webm" ? "-c:v libvpx-vp9 -i " : "-i ") + name;
+    CHECK(similarity(input, "alpha") > 0.97);
+    CHECK(similarity(input, "colours") > 0.95);
+  }
 }
 
 TEST_CASE("Render: a picture from a time is the picture at that time") {

@@ -488,7 +488,7 @@ TEST_CASE("Wrong use: the fix comes after the problem") {
   check_refused(shell, "clatter render vibrated --to 1 --fps 60 --out a.gif",
                 {"--fps: a GIF has at most 50 frames per second; give at most --fps 50, or"});
   check_refused(shell, "clatter render vibrated --to 1 --transparent --out a.mp4",
-                {"--transparent: only PNG pictures can be transparent; write to a FILE.png or"});
+                {"--transparent: a film .mp4 cannot be transparent; write a film .mov, .webm or"});
   check_refused(shell, "clatter check vibrated --set particles.count",
                 {"--set particles.count: no value is set; write --set KEY=VALUE, for example"});
 }

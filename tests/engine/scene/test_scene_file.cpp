@@ -150,6 +150,12 @@ void check_equal(const Scene& a, const Scene& b) {
     CHECK(a.view.camera[k].follow == b.view.camera[k].follow);
     CHECK(a.view.camera[k].width == b.view.camera[k].width);
   }
+  REQUIRE(a.view.captions.size() == b.view.captions.size());
+  for (std::size_t k = 0; k < a.view.captions.size(); ++k) {
+    CHECK(a.view.captions[k].text == b.view.captions[k].text);
+    CHECK(a.view.captions[k].from == b.view.captions[k].from);
+    CHECK(a.view.captions[k].to == b.view.captions[k].to);
+  }
 }
 
 /// A scene in which every key differs from its default.
@@ -221,24 +227,26 @@ Scene unusual_scene() {
   scene.measure.collision_counts = {.interval = 5.5};
   scene.measure.radial_distribution_profile = {
       .interval = 2.25, .range = 1.2, .bins = 19, .axis = Axis::Y, .slabs = 7};
-  scene.view = {.colour_by = ColourBy::Spin,
-                .field = Field(Quantity::Temperature, 0),
-                .window = 0.125,
-                .speed = 1e-7,
-                .palette = Palette::Inferno,
-                .range = {ColourRange::Given, {-1.5, 2.0}},
-                .field_palette = FieldPalette::Cividis,
-                .field_style = FieldStyle::Cells,
-                .field_range = {ColourRange::Locked},
-                .arrows = Quantity::HeatFlux,
-                .theme = Theme::Projector,
-                .background = Rgb{0, 10, 255},
-                .grid = true,
-                .overlay = false,
-                .trails = 0.75,
-                .card = 1e-3,
-                .camera = {{.time = 0.5, .centre = {}, .follow = 1, .width = 0.1},
-                           {.time = 1e9, .centre = Vec2(-1.0, 1e-7), .follow = {}, .width = {}}}};
+  scene.view = {
+      .colour_by = ColourBy::Spin,
+      .field = Field(Quantity::Temperature, 0),
+      .window = 0.125,
+      .speed = 1e-7,
+      .palette = Palette::Inferno,
+      .range = {ColourRange::Given, {-1.5, 2.0}},
+      .field_palette = FieldPalette::Cividis,
+      .field_style = FieldStyle::Cells,
+      .field_range = {ColourRange::Locked},
+      .arrows = Quantity::HeatFlux,
+      .theme = Theme::Projector,
+      .background = Rgb{0, 10, 255},
+      .grid = true,
+      .overlay = false,
+      .trails = 0.75,
+      .card = 1e-3,
+      .captions = {{.text = "T_x \\_", .from = {}, .to = 0.1}, {.text = "", .from = 0.3, .to = {}}},
+      .camera = {{.time = 0.5, .centre = {}, .follow = 1, .width = 0.1},
+                 {.time = 1e9, .centre = Vec2(-1.0, 1e-7), .follow = {}, .width = {}}}};
   return scene;
 }
 
@@ -287,6 +295,7 @@ TEST_CASE("Scene file: every key arrives at its place") {
     range = [0, 3]
     field_range = "locked"
     trails = 0.5
+    captions = [{ text = "v^2", from = 1 }, { text = "T_x", to = 2 }]
     camera = [{ follow = 2 }, { time = 2, centre = [1, 2.5], width = 4 }]
   )",
                                   "s.toml");
@@ -314,6 +323,11 @@ TEST_CASE("Scene file: every key arrives at its place") {
   CHECK(scene.bulk_drive->kick_spin == 0.1);
   CHECK(scene.contact_time == 1e-6);
   CHECK(scene.view.trails == 0.5);
+  REQUIRE(scene.view.captions.size() == 2);
+  CHECK(scene.view.captions[0].text == "v^2");
+  CHECK(scene.view.captions[0].from == 1.0);
+  CHECK(!scene.view.captions[0].to);
+  CHECK(scene.view.captions[1].to == 2.0);
   REQUIRE(scene.view.camera.size() == 2);
   CHECK(scene.view.camera[0].follow == 2);
   CHECK(!scene.view.camera[0].width);

@@ -65,6 +65,12 @@ TEST_CASE("Scene file: mistakes are reported with their place and a fix") {
        "s.toml:5:1: 'view.camera.centre' has no meaning beside follow; remove one of the two"},
       {kParticles + "[view]\ncamera = [{ widht = 3 }]\n",
        "s.toml:4:13: unknown key 'widht'; did you mean 'width'?"},
+      {kParticles + "[view]\ncaptions = [{ text = 'v^2' },\n  { text = 'T_{x' }]\n",
+       "s.toml:5:3: in the text of a caption a '{' has no '}'; write T_x, v^2 or T_{refined}, and "
+       "a backslash before a plain _ or ^"},
+      {kParticles + "[[view.captions]]\nfrom = 1\n", "s.toml:3:1: 'view.captions.text' is missing"},
+      {kParticles + "[[view.captions]]\ntext = 'a'\nfrom = 3\nto = 3\n",
+       "s.toml:6:1: 'view.captions.to' cannot be 3; give a number greater than 3"},
       {kParticles + "[view]\noverlay = 1\n",
        "s.toml:4:1: 'view.overlay' cannot be 1; give true or false"},
       {kParticles + "[measure]\nfields = \"density\"\n",

@@ -314,4 +314,57 @@ TEST_CASE("Overlay: two colour bars beside a box of spheres fill the height of t
   CHECK(written > 1000);
 }
 
+TEST_CASE(
+    "Overlay: a caption fades in and out, unless it is there from the beginning or to the end") {
+  constexpr double kSpeed = 4.0;  // half a second is 2
+  const Caption caption{"v^2", 10.0, 20.0};
+  CHECK(caption_opacity(caption, 10.0, kSpeed) == 0.0);
+  CHECK(caption_opacity(caption, 11.0, kSpeed) == 0.5);
+  CHECK(caption_opacity(caption, 12.0, kSpeed) == 1.0);
+  CHECK(caption_opacity(caption, 18.0, kSpeed) == 1.0);
+  CHECK(caption_opacity(caption, 19.5, kSpeed) == 0.25);
+  CHECK(caption_opacity(caption, 20.0, kSpeed) == 0.0);
+  CHECK(caption_opacity(caption, 30.0, kSpeed) == 0.0);
+  CHECK(caption_opacity({"v^2", {}, 20.0}, 0.0, kSpeed) == 1.0);
+  CHECK(caption_opacity({"v^2", {}, 20.0}, 19.0, kSpeed) == 0.5);
+  CHECK(caption_opacity({"v^2", 10.0, {}}, 1e9, kSpeed) == 1.0);
+  // A short caption is visible for a third of its time.
+  CHECK(caption_opacity({"v^2", 10.0, 13.0}, 11.0, kSpeed) == 1.0);
+  CHECK(caption_opacity({"v^2", 10.0, 13.0}, 10.5, kSpeed) == 0.5);
+}
+
+TEST_CASE("Overlay: the captions of a time are over the lower part of the gas, on plates") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  Snapshot snapshot = driven_box();
+  View view;
+  view.captions = {{"T_x = m⟨v_x^2⟩", 0.0, 20.0}, {"Below.\nIn two lines.", {}, {}}};
+  for (const Size size : {Size{1280, 720}, {640, 360}, {360, 640}}) {
+    CAPTURE(size.width);
+    const Camera camera = renderer.fit(snapshot, size, view, kText);
+    View plain = view;
+    plain.captions.clear();
+    // Number of changed pixels, and their first and last row as shares of the height.
+    const auto changed = [&](double time) {
+      snapshot.time = time;
+      const Image with = draw(renderer, context->gl(), snapshot, camera, size, view);
+      const Image without = draw(renderer, context->gl(), snapshot, camera, size, plain);
+      std::vector<double> rows;
+      for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+          if (!(pixel(with, x, y) == pixel(without, x, y))) rows.push_back(1.0 * y / size.height);
+        }
+      }
+      return rows;
+    };
+    const auto both = changed(5.0), second = changed(30.0);
+    REQUIRE(second.size() > 500);
+    CHECK(both.size() > second.size() + 300);
+    CHECK(both.front() > 0.5);
+    CHECK(both.front() < second.front());
+    CHECK(both.back() == second.back());
+    CHECK(second.back() < 0.97);
+  }
+}
+
 }  // namespace clatter

@@ -69,6 +69,7 @@ TEST_CASE("Movie: a film has its frames, its codec, even sides and its texts") {
   };
   for (const Kind& kind : {Kind{"film.mp4", "codec_name=h264\n", "width=102\nheight=76\n"},
                            Kind{"film.webm", "codec_name=vp9\n", "width=102\nheight=76\n"},
+                           Kind{"film.mov", "codec_name=prores\n", "width=101\nheight=75\n"},
                            Kind{"film.mkv", "codec_name=ffv1\n", "width=101\nheight=75\n"},
                            Kind{"film.gif", "codec_name=gif\n", "width=101\nheight=75\n"}}) {
     CAPTURE(kind.name);
@@ -145,7 +146,7 @@ TEST_CASE("Movie: pieces that cannot be joined stay, and the error names them") 
 TEST_CASE("Movie: a film that was cut and resumed is the same film, to the byte") {
   const TemporaryFolder folder;
   constexpr long kFrames = 2 * FrameSink::kPiece + 7, kCut = FrameSink::kPiece + 30;
-  for (const std::string extension : {".mp4", ".webm", ".gif", ".mkv"}) {
+  for (const std::string extension : {".mp4", ".mov", ".webm", ".gif", ".mkv"}) {
     CAPTURE(extension);
     const auto whole = folder / ("whole" + extension), cut = folder / ("cut" + extension);
     {
