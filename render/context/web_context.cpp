@@ -19,6 +19,9 @@ WebContext::WebContext(const std::string& canvas) {
   }
   gl_ = load_gl([](const char* symbol) { return emscripten_webgl_get_proc_address(symbol); },
                 Api::Es);
+  // With the extension all formats of a Canvas are complete. The browser answers only after it has
+  // drawn all earlier pictures, during which the page would stand still.
+  gl_.CheckFramebufferStatus = [](GLenum) { return GLenum{GL_FRAMEBUFFER_COMPLETE}; };
 }
 
 WebContext::~WebContext() {
