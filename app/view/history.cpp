@@ -81,7 +81,8 @@ void History::thin_out() {
     const Sample &a = samples_[i], &b = samples_[i + 1];
     thinned.push_back({0.5 * (a.time + b.time), 0.5 * (a.temperature + b.temperature),
                        0.5 * (a.walls_in + b.walls_in), 0.5 * (a.bulk_in + b.bulk_in),
-                       0.5 * (a.nudges_in + b.nudges_in), 0.5 * (a.gravity_in + b.gravity_in), 0.5 * (a.dissipated + b.dissipated),
+                       0.5 * (a.nudges_in + b.nudges_in), 0.5 * (a.gravity_in + b.gravity_in),
+                       0.5 * (a.dissipated + b.dissipated),
                        std::max(a.ledger_residual, b.ledger_residual),
                        std::max(a.deepest_overlap, b.deepest_overlap)});
   }

@@ -248,7 +248,8 @@ template <int D>
 static bool is_in_region(const Model<D>& model, const Nudge& nudge, const Vec<D>& position) {
   Vec<D> way = model.wrapped(position) - Vec<D>(*nudge.centre);
   for (int axis = 0; axis < D; ++axis) {
-    if (model.periodic(axis)) way[axis] -= model.box[axis] * std::round(way[axis] / model.box[axis]);
+    if (model.periodic(axis))
+      way[axis] -= model.box[axis] * std::round(way[axis] / model.box[axis]);
   }
   return way.squaredNorm() <= *nudge.radius * *nudge.radius;
 }
@@ -259,9 +260,9 @@ std::vector<NewVelocity<D>> EventLoop<D>::velocities_after(const Nudge& nudge) c
   Vec<D> mean = Vec<D>::Zero();
   for (std::uint32_t i = 0; i < gas_.particles.size(); ++i) {
     const Flight<D>& flight = gas_.particles[i].flight;
-    const bool chosen = nudge.particle ? static_cast<std::uint32_t>(*nudge.particle) == i
-                                       : is_in_region<D>(model_, nudge,
-                                                         flight.at(now_, model_.gravity));
+    const bool chosen = nudge.particle
+                            ? static_cast<std::uint32_t>(*nudge.particle) == i
+                            : is_in_region<D>(model_, nudge, flight.at(now_, model_.gravity));
     if (!chosen) continue;
     velocities.push_back({i, flight.velocity_at(now_, model_.gravity)});
     mean += velocities.back().velocity;
@@ -272,9 +273,10 @@ std::vector<NewVelocity<D>> EventLoop<D>::velocities_after(const Nudge& nudge) c
     if (nudge.add) velocity += Vec<D>(*nudge.add);
     if (nudge.set) velocity = Vec<D>(*nudge.set);
     if (velocity.norm() <= kMaxSpeed) continue;
-    throw PhysicalStop(fmt::format("a nudge gives particle {} a speed of {:.3g}, more than {:.0e}; "
-                                   "make it weaker",
-                                   particle, velocity.norm(), kMaxSpeed));
+    throw PhysicalStop(
+        fmt::format("a nudge gives particle {} a speed of {:.3g}, more than {:.0e}; "
+                    "make it weaker",
+                    particle, velocity.norm(), kMaxSpeed));
   }
   return velocities;
 }

@@ -33,8 +33,8 @@ struct WindowTotals {
 template <class Archive, int D>
 void visit(Archive& io, WindowTotals<D>& window) {
   auto& [duration, temperature, second_moment, fourth_moment, collisions, elasticised,
-         spin_temperature, walls_in, bulk_in, nudges_in, gravity_in, dissipated, undissipated, virial,
-         wall_impulse] = window;
+         spin_temperature, walls_in, bulk_in, nudges_in, gravity_in, dissipated, undissipated,
+         virial, wall_impulse] = window;
   io(duration, temperature, second_moment, fourth_moment, collisions, elasticised, spin_temperature,
      walls_in, bulk_in, nudges_in, gravity_in, dissipated, undissipated, virial, wall_impulse);
 }

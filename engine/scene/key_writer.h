@@ -119,9 +119,9 @@ class TomlWriter final : public KeyWriter {
   std::string path() const;
 
   std::string text_;
-  std::vector<std::string> path_;  // of the current table
-  bool header_due_ = false;        // a table without own values gets no header
-  bool in_item_ = false;           // tables of an item of a list are inline
+  std::vector<std::string> path_;      // of the current table
+  bool header_due_ = false;            // a table without own values gets no header
+  bool in_item_ = false;               // tables of an item of a list are inline
   std::optional<std::string> inline_;  // values of the open inline table; absent: none is open
 };
 

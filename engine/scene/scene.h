@@ -99,10 +99,10 @@ enum class Ramp { Linear };
 
 /// A change of laws or velocities during a run, after the events of the same time.
 struct Change {
-  double time = 0.0;               ///< simulation time, >= 0
-  std::vector<Override> set = {};  ///< keys that may change live, all at once; empty: none
-  std::optional<Ramp> ramp = {};   ///< absent: the values hold from `time` on
-  double until = 0.0;              ///< of a ramp: the time at which it ends, > time
+  double time = 0.0;                ///< simulation time, >= 0
+  std::vector<Override> set = {};   ///< keys that may change live, all at once; empty: none
+  std::optional<Ramp> ramp = {};    ///< absent: the values hold from `time` on
+  double until = 0.0;               ///< of a ramp: the time at which it ends, > time
   std::optional<Nudge> nudge = {};  ///< of velocities, after the change of laws; absent: none
 
   bool operator==(const Change&) const = default;

@@ -754,8 +754,8 @@ inline constexpr auto kNudgeKeys = key_table(
 template <class Visitor>
 void visit_nudge(Visitor& io, Nudge& nudge) {
   const Limits speeds = between(-kMaxSpeed, kMaxSpeed);
-  const Presence of_region = nudge.particle ? kNotBesideParticle : kOptional;
   io.value(kNudgeKeys.at("particle"), nudge.particle, between(0, kMaxCount));
+  const Presence of_region = nudge.particle ? kNotBesideParticle : kOptional;
   io.value(kNudgeKeys.at("centre"), nudge.centre, at_least(0.0), of_region);
   io.value(kNudgeKeys.at("radius"), nudge.radius,
            Limits{.lowest = 0.0, .highest = kMaxLength, .above = true}, of_region);

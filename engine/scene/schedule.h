@@ -14,8 +14,8 @@ namespace clatter {
 /// and the contact time.
 bool may_change_live(std::string_view key);
 
-/// The laws and nudges of a scene in time, from its `changes`. A ramp has equal steps, so that all commands
-/// and the window change the same laws at the same times.
+/// The laws and nudges of a scene in time, from its `changes`. A ramp has equal steps, so that all
+/// commands and the window change the same laws at the same times.
 class Schedule {
  public:
   /// At the scene's start, before all changes.

@@ -43,7 +43,8 @@ State<D> velocities_after(const std::string& nudge, State<D>& before) {
   const std::string box = D == 2 ? "[20, 20]" : "[20, 20, 20]";
   const std::string gas = "box.size = " + box + "\nparticles.count = 30\n";
   ScheduledRun<D> plain(parse_scene(gas, ""), kSeed);
-  ScheduledRun<D> run(parse_scene(gas + "[[change]]\ntime = 1\nnudge = " + nudge + "\n", ""), kSeed);
+  ScheduledRun<D> run(parse_scene(gas + "[[change]]\ntime = 1\nnudge = " + nudge + "\n", ""),
+                      kSeed);
   plain.run_until(1.0);
   run.run_until(1.0);
   before = plain.simulation().state();
@@ -89,8 +90,12 @@ void check_scaling(const std::string& centre, const Vec<D>& place) {
 }  // namespace
 
 TEST_CASE("Nudge: scale heats a region about its mean velocity, across periodic sides") {
-  SUBCASE("disks") { check_scaling<2>("[19.0, 1.0]", Vec2(19.0, 1.0)); }
-  SUBCASE("spheres") { check_scaling<3>("[19.0, 1.0, 10.0]", Vec<3>(19.0, 1.0, 10.0)); }
+  SUBCASE("disks") {
+    check_scaling<2>("[19.0, 1.0]", Vec2(19.0, 1.0));
+  }
+  SUBCASE("spheres") {
+    check_scaling<3>("[19.0, 1.0, 10.0]", Vec<3>(19.0, 1.0, 10.0));
+  }
 }
 
 TEST_CASE("Nudge: add and set give their velocities") {
@@ -149,7 +154,8 @@ TEST_CASE("Nudge: halts, a saved scene and a run continued at any event change n
   CHECK(without.simulation().state_hash() != whole.simulation().state_hash());
 }
 
-TEST_CASE("Nudge: a run saved between a kick and the nudge of the same time has the nudge to come") {
+TEST_CASE(
+    "Nudge: a run saved between a kick and the nudge of the same time has the nudge to come") {
   const Scene scene = nudged();
   Scene first_part = scene;
   first_part.changes.clear();
@@ -185,7 +191,7 @@ TEST_CASE("Nudge: tiles change no bit") {
       "[[change]]\ntime = 0.4\nnudge = { centre = [30.0, 30.0], radius = 8.0, scale = 3.0 }\n";
   const Scene scene = parse_scene(gas, "");
   ScheduledRun<2> one(scene, kSeed), two(scene, kSeed);
-  two.simulation().use_threads(2, {.tile = 100, .halo = 20});
+  two.simulation().use_threads(2, TileSizes{.particles = 100, .collisions = 1.0, .halo = 4.0});
   one.run_until(1.5);
   two.run_until(1.5);
   CHECK(one.simulation().state_hash() == two.simulation().state_hash());
@@ -205,7 +211,8 @@ TEST_CASE("Nudge: a velocity beyond the largest stops the run, and the state rem
 TEST_CASE("Nudge: impossible nudges are refused with their place") {
   const std::string head = kDisks + "[[change]]\ntime = 1\n";  // line 9 follows
   const std::vector<std::pair<std::string, std::vector<const char*>>> wrong = {
-      {"nudge = { centre = [13, 5], radius = 1, scale = 2 }", {"s.toml:9:11", "outside of the box"}},
+      {"nudge = { centre = [13, 5], radius = 1, scale = 2 }",
+       {"s.toml:9:11", "outside of the box"}},
       {"nudge = { centre = [3, 5, 1], radius = 1, scale = 2 }", {"s.toml:9:11", "3 numbers"}},
       {"nudge = { centre = [3, 5], radius = 0, scale = 2 }", {"s.toml:9:28", "greater than 0"}},
       {"nudge = { centre = [3, 5], scale = 2 }", {"s.toml:9", "no radius"}},
