@@ -35,6 +35,7 @@ std::vector<std::pair<std::string, Estimate>> estimates_of(const Measured& measu
   add("collision_rate", measured.collision_rate);
   add("energy.walls_in", measured.walls_in);
   add("energy.bulk_in", measured.bulk_in);
+  add("energy.nudges_in", measured.nudges_in);
   add("energy.gravity_in", measured.gravity_in);
   add("energy.dissipated", measured.dissipated);
   for (std::size_t side = 0; side < measured.pressure.size(); ++side) {

@@ -55,6 +55,7 @@ void History::add(const Frame& frame) {
   sample.temperature = (frame.tally.temperature_integral - last_.temperature_integral) / span;
   sample.walls_in = (frame.tally.walls_in - last_.walls_in) / span;
   sample.bulk_in = (frame.tally.bulk_in - last_.bulk_in) / span;
+  sample.nudges_in = (frame.tally.nudges_in - last_.nudges_in) / span;
   sample.gravity_in = (frame.tally.gravity_in - last_.gravity_in) / span;
   sample.dissipated = (frame.tally.dissipated - last_.dissipated) / span;
   sample.ledger_residual = std::fabs(frame.ledger_residual);
@@ -80,7 +81,8 @@ void History::thin_out() {
     const Sample &a = samples_[i], &b = samples_[i + 1];
     thinned.push_back({0.5 * (a.time + b.time), 0.5 * (a.temperature + b.temperature),
                        0.5 * (a.walls_in + b.walls_in), 0.5 * (a.bulk_in + b.bulk_in),
-                       0.5 * (a.gravity_in + b.gravity_in), 0.5 * (a.dissipated + b.dissipated),
+                       0.5 * (a.nudges_in + b.nudges_in), 0.5 * (a.gravity_in + b.gravity_in),
+                       0.5 * (a.dissipated + b.dissipated),
                        std::max(a.ledger_residual, b.ledger_residual),
                        std::max(a.deepest_overlap, b.deepest_overlap)});
   }

@@ -13,6 +13,7 @@ struct Sample {
   VecX temperature;              ///< [D] T_x, T_y and, for spheres, T_z
   double walls_in = 0.0;         ///< power of the walls
   double bulk_in = 0.0;          ///< power of the bulk drive
+  double nudges_in = 0.0;        ///< power of nudges
   double gravity_in = 0.0;       ///< power of gravity
   double dissipated = 0.0;       ///< dissipated power
   double ledger_residual = 0.0;  ///< magnitude of Totals::ledger_residual()

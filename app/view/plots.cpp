@@ -85,7 +85,9 @@ LivePlot energy_plot(const std::vector<Sample>& samples, double count, Colour pl
   for (const Sample& sample : samples) {
     plot.span = std::max(plot.span, kShare * count * sample.temperature.mean());
   }
-  const auto in = [](const Sample& s) { return s.walls_in + s.bulk_in + s.gravity_in; };
+  const auto in = [](const Sample& s) {
+    return s.walls_in + s.bulk_in + s.nudges_in + s.gravity_in;
+  };
   plot.curves = {
       over_time("in", kOrange, samples, in),
       over_time("dissipated", kBlue, samples, [](const Sample& s) { return s.dissipated; }),

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "engine/dynamics/collapse.h"
 #include "engine/dynamics/prefetch.h"
 #include "engine/error.h"
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/dynamics/boundary.h"
+#include "engine/dynamics/collapse.h"
 #include "engine/dynamics/event_queue.h"
 #include "engine/dynamics/large_array.h"
 #include "engine/dynamics/model.h"
@@ -19,12 +20,20 @@
 #include "engine/dynamics/run_state.h"
 #include "engine/dynamics/tile_record.h"
 #include "engine/dynamics/watchdog.h"
+#include "engine/scene/nudge.h"
 #include "engine/stop_request.h"
 
 namespace clatter {
 
 /// Least number of physical events between two moves of the base.
 inline constexpr std::uint64_t kMinEventsPerBase = 64;
+
+/// The velocity of a particle after a nudge.
+template <int D>
+struct NewVelocity {
+  std::uint32_t particle = 0;
+  Vec<D> velocity;
+};
 
 /// Particles, their plans, and the calendar of their events, which it processes in order. Times are
 /// on a base that it moves.
@@ -92,6 +101,13 @@ class EventLoop {
   void skip_to(double time) { now_ = std::max(now_, time); }
   /// Bulk driving kicks all particles. Then the base must move.
   void kick();
+  /// The particles that a nudge changes, and their new velocities, in original order. Throws
+  /// PhysicalStop if one is too fast.
+  std::vector<NewVelocity<D>> velocities_after(const Nudge& nudge) const;
+  /// Sets velocities as the result of a nudge. Then the base must move.
+  void nudge(const std::vector<NewVelocity<D>>& velocities);
+  /// Raises the speed above which speeds diverge to that of a run with this speed at its start.
+  void allow_start_speed(double speed) { fastest_ = fastest_speed<D>(model_, speed); }
   /// Whether the base must move before the next event: its number of events is reached, or a
   /// particle has become too fast for the precision of times.
   bool base_due() const { return until_base_moves_ == 0; }

@@ -1,11 +1,16 @@
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
 #include "engine/dynamics/collision_rules.h"
 #include "engine/dynamics/event_loop.h"
 #include "engine/dynamics/prefetch.h"
+#include "engine/error.h"
 #include "engine/physics/random.h"
+#include "engine/scene/scene_keys.h"
 
 // The effects of events on particles; event_loop.cpp has the loop.
 
@@ -238,6 +243,57 @@ void EventLoop<D>::kick() {
   ++counts_.kicks;
 }
 
+// Whether the centre of a particle is in the region of a nudge.
+template <int D>
+static bool is_in_region(const Model<D>& model, const Nudge& nudge, const Vec<D>& position) {
+  Vec<D> way = model.wrapped(position) - Vec<D>(*nudge.centre);
+  for (int axis = 0; axis < D; ++axis) {
+    if (model.periodic(axis))
+      way[axis] -= model.box[axis] * std::round(way[axis] / model.box[axis]);
+  }
+  return way.squaredNorm() <= *nudge.radius * *nudge.radius;
+}
+
+template <int D>
+std::vector<NewVelocity<D>> EventLoop<D>::velocities_after(const Nudge& nudge) const {
+  std::vector<NewVelocity<D>> velocities;
+  Vec<D> mean = Vec<D>::Zero();
+  for (std::uint32_t i = 0; i < gas_.particles.size(); ++i) {
+    const Flight<D>& flight = gas_.particles[i].flight;
+    const bool chosen = nudge.particle
+                            ? static_cast<std::uint32_t>(*nudge.particle) == i
+                            : is_in_region<D>(model_, nudge, flight.at(now_, model_.gravity));
+    if (!chosen) continue;
+    velocities.push_back({i, flight.velocity_at(now_, model_.gravity)});
+    mean += velocities.back().velocity;
+  }
+  mean /= static_cast<double>(std::max<std::size_t>(1, velocities.size()));
+  for (auto& [particle, velocity] : velocities) {
+    if (nudge.scale) velocity = mean + *nudge.scale * (velocity - mean);
+    if (nudge.add) velocity += Vec<D>(*nudge.add);
+    if (nudge.set) velocity = Vec<D>(*nudge.set);
+    if (velocity.norm() <= kMaxSpeed) continue;
+    throw PhysicalStop(
+        fmt::format("a nudge gives particle {} a speed of {:.3g}, more than {:.0e}; "
+                    "make it weaker",
+                    particle, velocity.norm(), kMaxSpeed));
+  }
+  return velocities;
+}
+
+template <int D>
+void EventLoop<D>::nudge(const std::vector<NewVelocity<D>>& velocities) {
+  for (const NewVelocity<D>& next : velocities) {
+    const auto [r, v] = motion_now(next.particle);
+    const Kick<D> kick{now_, change_of(next.particle, r, v, {next.velocity - v, Spin<D>::Zero()}),
+                       KickCause::Nudge};
+    for (Observer<D>* observer : observers_) observer->on_kick(kick);
+    renew_flight(next.particle, r, next.velocity);
+  }
+  ++counts_.nudges;
+  if (watchdog_) watchdog_.emplace(gas_.particles.size(), now_);
+}
+
 template void EventLoop<2>::enter_next_cell(std::uint32_t);
 template void EventLoop<3>::enter_next_cell(std::uint32_t);
 template bool EventLoop<2>::note(const Event&, const IntVec<2>&);
@@ -264,5 +320,9 @@ template void EventLoop<2>::hit_wall(std::uint32_t, int);
 template void EventLoop<3>::hit_wall(std::uint32_t, int);
 template void EventLoop<2>::kick();
 template void EventLoop<3>::kick();
+template std::vector<NewVelocity<2>> EventLoop<2>::velocities_after(const Nudge&) const;
+template std::vector<NewVelocity<3>> EventLoop<3>::velocities_after(const Nudge&) const;
+template void EventLoop<2>::nudge(const std::vector<NewVelocity<2>>&);
+template void EventLoop<3>::nudge(const std::vector<NewVelocity<3>>&);
 
 }  // namespace clatter

@@ -40,12 +40,16 @@ struct WallCollision {
   ParticleChange<D> particle;
 };
 
-/// A kick of bulk driving on one particle. All particles are kicked at the same time; each kick is
-/// reported in turn.
+/// Cause of a kick.
+enum class KickCause { BulkDrive, Nudge };
+
+/// A kick of one particle: a sudden change of its motion without a partner. Bulk driving kicks all
+/// particles at the same time, and a nudge kicks some; each kick is reported in turn.
 template <int D>
 struct Kick {
   double time = 0.0;  ///< on the moving base
   ParticleChange<D> particle;
+  KickCause cause = KickCause::BulkDrive;
 };
 
 /// Receives the events of a run and cannot change the run. A particle's flights follow each other

@@ -20,6 +20,7 @@ struct EventCounts {
   std::uint64_t pair_collisions = 0;
   std::uint64_t wall_collisions = 0;
   std::uint64_t kicks = 0;             ///< of bulk driving, each of all particles
+  std::uint64_t nudges = 0;            ///< of the scene's changes
   std::uint64_t elasticised = 0;       ///< pair collisions that the TC model made elastic
   std::uint64_t elasticised_wall = 0;  ///< collisions with walls that the TC model made elastic
   /// Exits of particles from their cells or, with NeighbourLists, from their regions.
@@ -59,7 +60,7 @@ struct RunState {
   std::vector<Vec<D>> remainders;       ///< [N] exact positions - flights.r, or empty: all 0
   std::uint64_t until_base_moves = 0;   ///< physical events left
   double mean_collision_time = 0.0;     ///< of a particle, see Watchdog; 0: not known
-  double start_speed = 0.0;             ///< of the fastest particle at the run's start
+  double start_speed = 0.0;             ///< of the fastest particle at the start or after a nudge
   double kick_interval = 0.0;           ///< of bulk driving; 0: none
   double kick_origin = 0.0;             ///< simulation time from which kicks are counted
   std::uint64_t kicks_since_origin = 0;
@@ -80,9 +81,9 @@ using AnyRunState = std::variant<RunState<2>, RunState<3>>;
 /// Visits the counts that the run determines, in order. The others depend on cells and tiles.
 template <class Archive>
 void visit(Archive& io, EventCounts& counts) {
-  auto& [pair_collisions, wall_collisions, kicks, elasticised, elasticised_wall, cell_crossings,
-         stale] = counts;
-  io(pair_collisions, wall_collisions, kicks, elasticised, elasticised_wall);
+  auto& [pair_collisions, wall_collisions, kicks, nudges, elasticised, elasticised_wall,
+         cell_crossings, stale] = counts;
+  io(pair_collisions, wall_collisions, kicks, nudges, elasticised, elasticised_wall);
 }
 
 /// Visits all members, in order.

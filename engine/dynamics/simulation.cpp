@@ -306,6 +306,18 @@ bool Simulation<D>::run_until(double time, std::uint64_t collisions, std::uint64
   return false;
 }
 
+// The base moves, as at a kick, because all particles' plans may be wrong.
+template <int D>
+void Simulation<D>::nudge(const Nudge& nudge) {
+  const std::vector<NewVelocity<D>> velocities = loop_.velocities_after(nudge);
+  for (const NewVelocity<D>& next : velocities) {
+    start_speed_ = std::max(start_speed_, next.velocity.norm());
+  }
+  loop_.nudge(velocities);
+  loop_.allow_start_speed(start_speed_);
+  move_base();
+}
+
 template <int D>
 void Simulation<D>::every(double start, double interval, std::function<void(double)> action,
                           std::uint64_t done) {

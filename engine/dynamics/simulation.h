@@ -66,6 +66,11 @@ class Simulation {
   /// A continued run skips the first `done` times.
   void every(double start, double interval, std::function<void(double)> action,
              std::uint64_t done = 0);
+  /// Throws PhysicalStop if a nudge would make a particle too fast.
+  void check(const Nudge& nudge) const { loop_.velocities_after(nudge); }
+  /// Changes velocities now. All events up to now must have been processed, as after run_until().
+  /// Throws PhysicalStop if a particle would be too fast; the state then is unchanged.
+  void nudge(const Nudge& nudge);
   /// The state that determines the run's future, together with the model and the timers.
   RunState<D> save() const;
   /// Reports every event from now on to an observer, which must outlive the simulation.
@@ -134,7 +139,7 @@ class Simulation {
   Model<D> model_;
   Clock clock_;
   Boundary<D> boundary_;
-  double start_speed_;  // of the fastest particle at the start
+  double start_speed_;  // of the fastest particle at the start and of nudged particles
   double kick_origin_;  // simulation time from which kicks are counted
   std::uint64_t kicks_since_origin_;
   std::deque<Timer> timers_;  // keep their addresses while an action adds timers

@@ -296,6 +296,9 @@ Measured Measurement<D>::means() const {
   if (model.bulk_drive) {
     measured.bulk_in = estimate([](const auto& w) { return w.bulk_in / w.duration; });
   }
+  if (counts.nudges > 0) {
+    measured.nudges_in = estimate([](const auto& w) { return w.nudges_in / w.duration; });
+  }
   if (model.has_gravity()) {
     measured.gravity_in = estimate([](const auto& w) { return w.gravity_in / w.duration; });
   }

@@ -37,6 +37,7 @@ struct Measured {
   Estimate collision_rate;  ///< pair collisions per particle and time; each counts for both
   std::optional<Estimate> walls_in;    ///< power of the walls
   std::optional<Estimate> bulk_in;     ///< power of the kicks of bulk driving
+  std::optional<Estimate> nudges_in;   ///< power of nudges; absent: none so far
   std::optional<Estimate> gravity_in;  ///< power of gravity
   Estimate dissipated;                 ///< energy per time lost in pair collisions, > 0
   /// Energy that elasticised pair collisions did not dissipate, divided by the energy that all did:

@@ -95,7 +95,8 @@ template <int D>
 void Totals<D>::on_kick(const Kick<D>& kick) {
   change(kick.particle, kick.time);
   book(kick.particle.energy);
-  window_.bulk_in += kick.particle.energy;
+  double& in = kick.cause == KickCause::Nudge ? window_.nudges_in : window_.bulk_in;
+  in += kick.particle.energy;
 }
 
 template <int D>

@@ -21,6 +21,7 @@ struct WindowTotals {
   double spin_temperature = 0.0;             ///< exact time average of I <omega^2> per component
   double walls_in = 0.0;                     ///< energy input of the walls
   double bulk_in = 0.0;                      ///< energy input of kicks
+  double nudges_in = 0.0;                    ///< energy input of nudges
   double gravity_in = 0.0;                   ///< work of gravity on the flights that ended
   double dissipated = 0.0;                   ///< energy lost between particles, > 0
   double undissipated = 0.0;                 ///< energy that the TC model saved from dissipation
@@ -32,10 +33,10 @@ struct WindowTotals {
 template <class Archive, int D>
 void visit(Archive& io, WindowTotals<D>& window) {
   auto& [duration, temperature, second_moment, fourth_moment, collisions, elasticised,
-         spin_temperature, walls_in, bulk_in, gravity_in, dissipated, undissipated, virial,
-         wall_impulse] = window;
+         spin_temperature, walls_in, bulk_in, nudges_in, gravity_in, dissipated, undissipated,
+         virial, wall_impulse] = window;
   io(duration, temperature, second_moment, fourth_moment, collisions, elasticised, spin_temperature,
-     walls_in, bulk_in, gravity_in, dissipated, undissipated, virial, wall_impulse);
+     walls_in, bulk_in, nudges_in, gravity_in, dissipated, undissipated, virial, wall_impulse);
 }
 
 /// Books energy and momentum of every event and of gravity, and averages the temperatures exactly

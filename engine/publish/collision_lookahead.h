@@ -51,6 +51,10 @@ class CollisionLookahead {
   CollisionLookahead(const CollisionLookahead&) = delete;
   CollisionLookahead& operator=(const CollisionLookahead&) = delete;
 
+  /// Whether the run has had no nudge since, which the copy lacks.
+  bool follows(const Simulation<D>& simulation) const {
+    return simulation.counts().nudges == ahead_.counts().nudges;
+  }
   /// The particle's first collision after `time`; times of successive calls must not decrease.
   /// Absent if the next `most_steps` steps do not reach it, or if there is none.
   const std::optional<ParticleCollision>& next_after(double time, std::uint64_t most_steps);

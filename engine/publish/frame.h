@@ -22,6 +22,7 @@ struct Tally {
   VecX temperature_integral;      ///< time integrals of T_x, T_y and, for spheres, T_z
   double walls_in = 0.0;          ///< energy input of the walls
   double bulk_in = 0.0;           ///< energy input of kicks
+  double nudges_in = 0.0;         ///< energy input of nudges
   double gravity_in = 0.0;        ///< work of gravity
   double dissipated = 0.0;        ///< energy lost between particles, > 0
   double undissipated = 0.0;      ///< additional loss without t_c

@@ -34,7 +34,7 @@ template <int D>
 ScheduledRun<D>::ScheduledRun(const Scene& scene, std::uint64_t seed, const RunState<D>& saved,
                               const StopRequest& stop)
     : schedule_(scene), seed_(seed) {
-  schedule_.skip_to(Clock(saved.base).absolute(saved.now));
+  schedule_.skip_to(Clock(saved.base).absolute(saved.now), saved.counts.nudges);
   simulation_ = std::make_unique<Simulation<D>>(model_of<D>(schedule_.laws(), seed), saved, stop);
 }
 
@@ -100,14 +100,22 @@ void ScheduledRun<D>::change_here(const std::vector<Override>& laws) {
   advance(std::move(changed));
 }
 
-// Makes the next change of laws of `schedule`, which then replaces that of the run.
+// Makes the next change of `schedule`, which then replaces that of the run. A nudge is an event of
+// the simulation, so that observers see it.
 template <int D>
 void ScheduledRun<D>::advance(Schedule schedule) {
   const Averages averages = schedule.ramps_next() ? Averages::Continue : Averages::Restart;
+  const std::optional<Nudge> nudge =
+      schedule.next_nudge() ? std::optional(*schedule.next_nudge()) : std::nullopt;
+  if (nudge) simulation_->check(*nudge);
+  const bool sets = schedule.next_sets();
   schedule.advance();
-  go_on_as(
-      std::make_unique<Simulation<D>>(model_of<D>(schedule.laws(), seed_), simulation_->save()),
-      averages);
+  if (sets) {
+    go_on_as(
+        std::make_unique<Simulation<D>>(model_of<D>(schedule.laws(), seed_), simulation_->save()),
+        averages);
+  }
+  if (nudge) simulation_->nudge(*nudge);
   schedule_ = std::move(schedule);
 }
 

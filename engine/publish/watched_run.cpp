@@ -200,6 +200,7 @@ void RunOf<D>::close_window() {
   tally_.temperature_integral += window.duration * window.temperature;
   tally_.walls_in += window.walls_in;
   tally_.bulk_in += window.bulk_in;
+  tally_.nudges_in += window.nudges_in;
   tally_.gravity_in += window.gravity_in;
   tally_.dissipated += window.dissipated;
   tally_.undissipated += window.undissipated;
@@ -414,7 +415,7 @@ std::optional<ParticleCollision> RunOf<D>::next_collision(bool halted) {
   const std::uint64_t steps = simulation.counts().steps();
   const std::uint64_t since = steps - std::exchange(steps_told_, steps);
   if (!picked_) return std::nullopt;
-  if (!lookahead_) lookahead_.emplace(simulation, *picked_);
+  if (!lookahead_ || !lookahead_->follows(simulation)) lookahead_.emplace(simulation, *picked_);
   const std::uint64_t most =
       halted ? 100 * (simulation.particles().size() + 100) : 2 * since + kHeadStart;
   return lookahead_->next_after(simulation.time(), most);

@@ -38,6 +38,8 @@ bool remove_settings(std::vector<Change>& changes, int dimension) {
   for (Change& change : changes) {
     removed += std::erase_if(
         change.set, [&](const Override& setting) { return !has_axis(setting, dimension); });
+    removed += change.nudge.has_value();
+    change.nudge.reset();
   }
   std::erase_if(changes, [](const Change& change) { return change.set.empty(); });
   return removed > 0;

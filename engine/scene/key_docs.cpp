@@ -83,7 +83,7 @@ class KeyDescriber {
   }
 
   void settings(const Key& key, const std::vector<Override>&) {
-    add(key, "", kRequired).values = "a table of keys and values";
+    add(key, "none", kOptional).values = "a table of keys and values";
   }
 
   std::vector<KeyDoc> docs;

@@ -56,7 +56,8 @@ static void flatten(const toml::table& table, const std::string& prefix,
 }
 
 void KeyReader::settings(std::string_view key, std::vector<Override>& settings) {
-  const toml::node* node = find(key, kRequired);
+  const toml::node* node = find(key, kOptional);
+  if (!node) return;
   if (!node->is_table()) refuse(key, *node, "a table of keys and values");
   flatten(*node->as_table(), "", settings);
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "engine/scene/text.h"
 
@@ -73,6 +74,10 @@ std::string TomlWriter::path() const {
 }
 
 void TomlWriter::write(std::string_view key, const std::string& value) {
+  if (inline_) {
+    *inline_ += std::string(inline_->empty() ? "" : ", ") + std::string(key) + " = " + value;
+    return;
+  }
   if (header_due_) {
     text_ += "\n[" + path() + "]\n";
     header_due_ = false;
@@ -82,12 +87,17 @@ void TomlWriter::write(std::string_view key, const std::string& value) {
 
 void TomlWriter::open(std::string_view key) {
   path_.emplace_back(key);
-  header_due_ = true;
+  header_due_ = !in_item_;
+  if (in_item_) inline_.emplace();
 }
 
 void TomlWriter::close() {
+  const std::string key = path_.back();
   path_.pop_back();
   header_due_ = false;
+  if (!inline_) return;
+  const std::string values = *std::exchange(inline_, std::nullopt);
+  write(key, "{ " + values + " }");
 }
 
 void TomlWriter::open_list(std::string_view key, bool) {
@@ -95,6 +105,7 @@ void TomlWriter::open_list(std::string_view key, bool) {
 }
 
 void TomlWriter::open_item() {
+  in_item_ = true;
   text_ += "\n[[" + path() + "]]\n";
 }
 
@@ -103,6 +114,7 @@ void TomlWriter::close_list() {
 }
 
 void TomlWriter::settings(std::string_view key, const std::vector<Override>& settings) {
+  if (settings.empty()) return;
   std::string list;
   for (const auto& [name, value] : settings) {
     list += (list.empty() ? "" : ", ") + in_quotes(name) + " = " + value;
@@ -151,6 +163,7 @@ void JsonWriter::close_list() {
 }
 
 void JsonWriter::settings(std::string_view key, const std::vector<Override>& settings) {
+  if (settings.empty()) return;
   std::string list;
   for (const auto& [name, value] : settings) {
     list += (list.empty() ? "" : ", ") + in_quotes(name) + ": " + in_quotes(value);

@@ -114,13 +114,15 @@ class TomlWriter final : public KeyWriter {
   void close() override;
   void open_list(std::string_view key, bool empty) override;
   void open_item() override;
-  void close_item() override {}
+  void close_item() override { in_item_ = false; }
   void close_list() override;
   std::string path() const;
 
   std::string text_;
-  std::vector<std::string> path_;  // of the current table
-  bool header_due_ = false;        // a table without own values gets no header
+  std::vector<std::string> path_;      // of the current table
+  bool header_due_ = false;            // a table without own values gets no header
+  bool in_item_ = false;               // tables of an item of a list are inline
+  std::optional<std::string> inline_;  // values of the open inline table; absent: none is open
 };
 
 /// Writes a JSON object.

@@ -9,6 +9,7 @@
 #include "engine/physics/lattice.h"
 #include "engine/physics/state.h"
 #include "engine/scene/field.h"
+#include "engine/scene/nudge.h"
 #include "engine/scene/observable_settings.h"
 #include "engine/scene/view.h"
 #include "engine/scene/wall.h"
@@ -89,17 +90,22 @@ struct Measure {
 struct Override {
   std::string key;    ///< dotted: "walls.left.drive_speed"
   std::string value;  ///< as TOML
+
+  bool operator==(const Override&) const = default;
 };
 
 /// Course of numbers to their new values.
 enum class Ramp { Linear };
 
-/// A change of laws during a run, after the events of the same time.
+/// A change of laws or velocities during a run, after the events of the same time.
 struct Change {
-  double time = 0.0;               ///< simulation time, >= 0
-  std::vector<Override> set = {};  ///< keys that may change live, all at once
-  std::optional<Ramp> ramp = {};   ///< absent: the values hold from `time` on
-  double until = 0.0;              ///< of a ramp: the time at which it ends, > time
+  double time = 0.0;                ///< simulation time, >= 0
+  std::vector<Override> set = {};   ///< keys that may change live, all at once; empty: none
+  std::optional<Ramp> ramp = {};    ///< absent: the values hold from `time` on
+  double until = 0.0;               ///< of a ramp: the time at which it ends, > time
+  std::optional<Nudge> nudge = {};  ///< of velocities, after the change of laws; absent: none
+
+  bool operator==(const Change&) const = default;
 };
 
 /// A complete, validated description of a run: the content of the scene file, with counts resolved

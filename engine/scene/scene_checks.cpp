@@ -275,6 +275,28 @@ void check_followed(const Scene& scene, const toml::table& root, const std::stri
   }
 }
 
+void check_nudges(const Scene& scene, const toml::table& root, const std::string& file) {
+  for (std::size_t number = 0; number < scene.changes.size(); ++number) {
+    const Change& change = scene.changes[number];
+    const toml::table& item = *(*root["change"].as_array())[number].as_table();
+    const auto place = [&](const std::string& key) {
+      return key.empty() ? place_of(item, file) : place_of(item, key, file);
+    };
+    if (change.set.empty() && !change.nudge) {
+      throw UserError(place(""), "the change has neither 'set' nor 'nudge'",
+                      "give new values of keys, a nudge, or both");
+    }
+    if (!change.nudge) continue;
+    if (change.ramp) {
+      throw UserError(place("ramp"), "a nudge has no ramp: it acts at one time",
+                      "give the nudge a [[change]] of its own");
+    }
+    check_nudge(*change.nudge, scene, [&](std::string_view key) {
+      return place("nudge" + std::string(key.empty() ? "" : ".") + std::string(key));
+    });
+  }
+}
+
 /// The number of particles from either of the scene's two keys; absent without both.
 static std::optional<double> asked_count(const SceneInput& input) {
   if (input.count) return *input.count;

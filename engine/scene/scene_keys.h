@@ -78,6 +78,8 @@ inline constexpr double kMaxAzimuth = 36000.0;
 inline constexpr double kMaxElevation = 90.0;
 inline constexpr double kMaxViewAngle = 120.0;
 inline constexpr double kMaxVolume = 1e3;
+/// Maximum factor of velocities in a nudge.
+inline constexpr double kMaxScale = 1e3;
 inline constexpr Limits kAzimuths = between(-kMaxAzimuth, kMaxAzimuth);
 inline constexpr Limits kElevations = between(-kMaxElevation, kMaxElevation);
 /// A wall that adds energy (theory 4.1) has a restitution above 1.
@@ -118,6 +120,13 @@ inline constexpr Presence kNotObserved = {
     Presence::Forbidden, "has no meaning without its observable",
     "remove it, or add the name of the table to measure.observables"};
 
+inline constexpr Presence kNotBesideParticle = {
+    Presence::Forbidden, "has no meaning for one particle",
+    "remove it, or give centre and radius of a region instead of particle"};
+inline constexpr Presence kOneOfNudge = {Presence::Forbidden,
+                                         "contradicts another key: a nudge has one of scale, add "
+                                         "and set",
+                                         "remove one of the two"};
 inline constexpr Presence kNotBesideFollow = {Presence::Forbidden, "has no meaning beside follow",
                                               "remove one of the two"};
 
@@ -750,6 +759,33 @@ void visit_view(Visitor& io, View& view, int dimension) {
           [&](auto& io, CameraKey& key) { visit_camera(io, key, dimension); });
 }
 
+inline constexpr auto kNudgeKeys = key_table(
+    kRunCommands,
+    {{"particle", "1", "Number of the particle, from 0. Without a value there is a region."},
+     {"centre", "a",
+      "Centre of the region, in the box. The particles with their centres in it change."},
+     {"radius", "a", "Radius of the region, a disk or a ball. It continues across periodic sides."},
+     {"scale", "1",
+      "Factor of the velocities relative to the mean velocity of the region. Above 1 it heats, "
+      "below 1 it cools. The momentum remains."},
+     {"add", "a/t", "Velocity that is added to each velocity."},
+     {"set", "a/t", "New velocity of each particle."}});
+
+/// The keys of [change.nudge].
+template <class Visitor>
+void visit_nudge(Visitor& io, Nudge& nudge) {
+  const Limits speeds = between(-kMaxSpeed, kMaxSpeed);
+  io.value(kNudgeKeys.at("particle"), nudge.particle, between(0, kMaxCount));
+  const Presence of_region = nudge.particle ? kNotBesideParticle : kOptional;
+  io.value(kNudgeKeys.at("centre"), nudge.centre, at_least(0.0), of_region);
+  io.value(kNudgeKeys.at("radius"), nudge.radius,
+           Limits{.lowest = 0.0, .highest = kMaxLength, .above = true}, of_region);
+  io.value(kNudgeKeys.at("scale"), nudge.scale, between(0.0, kMaxScale), of_region);
+  io.value(kNudgeKeys.at("add"), nudge.add, speeds, nudge.scale ? kOneOfNudge : kOptional);
+  io.value(kNudgeKeys.at("set"), nudge.set, speeds,
+           nudge.scale || nudge.add ? kOneOfNudge : kOptional);
+}
+
 inline constexpr auto kChangeKeys = key_table(
     kRunCommands,
     {{"time", "t", "Simulation time of the change."},
@@ -766,6 +802,7 @@ void visit_change(Visitor& io, Change& change) {
   io.choice(kChangeKeys.at("ramp"), change.ramp, kRamps);
   io.value(kChangeKeys.at("until"), change.until, above(change.time),
            change.ramp ? kRequired : kNotWithoutRamp);
+  io.table("nudge", change.nudge, [](auto& io, Nudge& nudge) { visit_nudge(io, nudge); });
 }
 
 inline constexpr auto kSceneKeys = key_table(

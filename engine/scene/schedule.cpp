@@ -110,6 +110,7 @@ void Schedule::put(const Step& step) {
 }
 
 void Schedule::change_to(const std::vector<Override>& settings) {
+  if (settings.empty()) return;
   require_live(settings);
   Scene changed = with_settings(laws_, settings);
   require_same_sides(laws_, changed);
@@ -131,8 +132,18 @@ void Schedule::advance() {
   change_to(on_the_way(laws_, change.set, 1.0 / (kRampSteps - step.part + 1)));
 }
 
-void Schedule::skip_to(double time) {
-  while (next() <= time) advance();
+const Nudge* Schedule::next_nudge() const {
+  const std::optional<Nudge>& nudge = (*changes_)[next_change()].nudge;
+  return nudge ? &*nudge : nullptr;
+}
+
+// A run that halted between the events of a time and its nudge has this time, with rounding.
+void Schedule::skip_to(double time, std::uint64_t nudges) {
+  constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
+  while (next() <= time) {
+    if (next_nudge() && nudges-- == 0 && next() * (1.0 + kRoundings) >= time) return;
+    advance();
+  }
 }
 
 }  // namespace clatter

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -13,8 +14,8 @@ namespace clatter {
 /// and the contact time.
 bool may_change_live(std::string_view key);
 
-/// The laws of a scene in time, from its `changes`. A ramp has equal steps, so that all commands
-/// and the window change the same laws at the same times.
+/// The laws and nudges of a scene in time, from its `changes`. A ramp has equal steps, so that all
+/// commands and the window change the same laws at the same times.
 class Schedule {
  public:
   /// At the scene's start, before all changes.
@@ -26,13 +27,18 @@ class Schedule {
   const Scene& laws() const { return laws_; }
   /// The scene with the current laws and all its changes.
   Scene scene() const;
-  /// Simulation time of the next change of laws; infinite: never.
+  /// Simulation time of the next change; infinite: never.
   double next() const;
-  /// Makes the next change of laws. Throws UserError if the result is invalid, or needs another gas
-  /// or box.
+  /// The nudge of the next change, which belongs after its change of laws; nullptr: none.
+  const Nudge* next_nudge() const;
+  /// Whether the next change has laws.
+  bool next_sets() const { return !(*changes_)[next_change()].set.empty(); }
+  /// Makes the next change of laws, if it has any. Throws UserError if the result is invalid, or
+  /// needs another gas or box.
   void advance();
-  /// Makes all changes up to and at a simulation time.
-  void skip_to(double time);
+  /// Makes all changes up to and at a simulation time. Without the changes from the nudge on that
+  /// follows the first `nudges`, if it is at this time.
+  void skip_to(double time, std::uint64_t nudges = ~std::uint64_t{0});
   /// Adds a change at the current time or later.
   void add(const Change& change);
 
