@@ -74,10 +74,25 @@ double round_time(const TimeScale& scale, float place) {
   return std::max(1.0, std::round(scale.time(place) / step)) * step;
 }
 
+std::string text_of(const VecX& vector) {
+  return fmt::format("({:.4g})", fmt::join(vector, ", "));
+}
+
+std::string text_of(const Nudge& nudge) {
+  std::string text = nudge.particle ? fmt::format("Velocity of particle {}", *nudge.particle)
+                                    : fmt::format("Velocities within {:.4g} of {}", *nudge.radius,
+                                                  text_of(*nudge.centre));
+  if (nudge.scale) text += fmt::format(", from their mean: times {:.4g}", *nudge.scale);
+  if (nudge.add) text += ": plus " + text_of(*nudge.add);
+  if (nudge.set) text += " = " + text_of(*nudge.set);
+  return text;
+}
+
 std::string text_of(const Change& change) {
   std::string text = change.ramp ? fmt::format("t = {:.6g} to {:.6g}", change.time, change.until)
                                  : fmt::format("t = {:.6g}", change.time);
   for (const Override& law : change.set) text += fmt::format("\n{} = {}", law.key, law.value);
+  if (change.nudge) text += "\n" + text_of(*change.nudge);
   return text;
 }
 
