@@ -9,7 +9,9 @@
 #include "app/commands/commands.h"
 #include "app/commands/flag_checks.h"
 #include "app/commands/flags.h"
+#include "app/runs/compared_scenes.h"
 #include "app/runs/film.h"
+#include "app/runs/film_cell.h"
 #include "app/runs/film_job.h"
 #include "app/runs/picture_scene.h"
 #include "app/runs/run.h"
@@ -60,6 +62,8 @@ constexpr int kEncodingThreads = 2;
 struct RenderOptions {
   CommonOptions common;
   CheckpointOptions checkpoints;
+  CompareOptions compare;
+  bool seed_flag = false;  // whether --seed is given
   std::string out;
   std::optional<Quality> quality;   // absent: medium
   std::optional<std::string> size;  // absent: size of the quality
@@ -251,6 +255,7 @@ FilmState restarted(FilmState film) {
   film.shown.clear();
   film.checksums.clear();
   film.notes.clear();
+  film.companions.clear();
   if (film.sound) film.sound.emplace();
   return film;
 }
@@ -272,13 +277,13 @@ FrameRange frames_asked_for(const RenderOptions& options, const FilmState& film)
   return frames;
 }
 
-SinkOptions sink_options(const RenderOptions& options, const Scene& scene, std::uint64_t seed,
+SinkOptions sink_options(const RenderOptions& options, const std::vector<ComparedScene>& scenes,
                          const FilmState& film, const FrameRange& frames) {
   SinkOptions sink;
   sink.size = film.size;
   sink.fps = film.times.fps;
   sink.transparent = film.transparent;
-  sink.texts = picture_texts(scene, seed);
+  sink.texts = picture_texts(scenes);
   sink.threads = options.threads.value_or(kEncodingThreads);
   sink.overwrite = options.overwrite;
   sink.begin = frames.begin;
@@ -302,6 +307,31 @@ void require_few_windows(const View& view, double last) {
   if (!view.shows_averages() || last / view.window <= kMaxWindows) return;
   throw UserError({"view.window", 0, 0}, number_text(view.window) + " is too short for this film",
                   "choose at least " + number_text(last / kMaxWindows));
+}
+
+// Refuses what a film of several gases cannot have.
+void require_comparable(const RenderOptions& options) {
+  if (options.compare.count() == 0) return;
+  if (options.compare.count() >= kMostCells) {
+    throw UserError({"", 0, 0}, "a film shows at most 4 gases beside each other",
+                    "give fewer scenes or --compare");
+  }
+  const auto refuse = [](const char* flag, const char* problem) {
+    throw UserError({flag, 0, 0}, problem, std::string("omit ") + flag + ", or give one scene");
+  };
+  if (options.sound) refuse("--sound", "a film of several gases has no sound");
+  if (options.slurm > 0) refuse("--slurm", "an array job films one gas");
+  if (!options.join.empty()) refuse("--join", "parts of a film are joined without their scenes");
+}
+
+// Refuses cells that are too small.
+void require_cells(Size whole, int count) {
+  for (int number = 0; number < count; ++number) {
+    const Size cell = cell_size(whole, number, count);
+    if (cell.width >= kMinSize.width && cell.height >= kMinSize.height) continue;
+    throw UserError({"--size", 0, 0}, "the cell of a gas would be " + size_text(cell),
+                    "give a size that leaves at least " + size_text(kMinSize) + " for each gas");
+  }
 }
 
 // Returns whether the sink has frames. A checkpoint keeps the run even if the sink cannot be
@@ -329,15 +359,18 @@ void tell_kept_folder(const RenderOptions& options) {
 }
 
 template <int D>
-int film_run(const RenderOptions& options, const Scene& scene, const View& view,
-             std::optional<Resumed> resumed, const std::filesystem::path& checkpoint,
-             const FilmState& film, const FrameRange& frames) {
-  Run<D> run("render", scene, options.common, options.checkpoints, std::move(resumed), checkpoint);
+int film_run(const RenderOptions& options, const std::vector<ComparedScene>& scenes,
+             const View& view, std::optional<Resumed> resumed,
+             const std::filesystem::path& checkpoint, const FilmState& film,
+             const FrameRange& frames) {
+  Run<D> run("render", scenes[0].scene, options.common, options.checkpoints, std::move(resumed),
+             checkpoint);
   const auto context = open_context(options.backend);
   require_drawable(film, context->gl());
-  const auto sink = open_sink(options.out, sink_options(options, scene, run.seed(), film, frames));
-  run.scheduled().use_threads(options.threads.value_or(processors()));
-  Film<D> filming(run, scene, view, film, context->gl());
+  const int threads = options.threads.value_or(processors());
+  run.scheduled().use_threads(threads);
+  Film<D> filming(run, scenes, view, film, threads, context->gl());
+  const auto sink = open_sink(options.out, sink_options(options, scenes, film, frames));
   bool drawn = false;
   {
     Progress progress(options.common.shown_progress(), "filming", run.simulation().time(),
@@ -354,14 +387,14 @@ int film_run(const RenderOptions& options, const Scene& scene, const View& view,
 // Films a run again from time 0. A checkpoint precedes only the pieces that follow it, so it cannot
 // replace a damaged piece.
 template <int D>
-int film_again(RenderOptions options, const View& view, std::uint64_t seed,
+int film_again(RenderOptions options, std::vector<ComparedScene> scenes, const View& view,
                const std::filesystem::path& checkpoint, const FilmState& film,
                const FrameRange& frames) {
   options.checkpoints.resume.clear();
-  options.common.seed = seed;
+  options.common.seed = scenes[0].seed;
   options.overwrite = true;
-  return film_run<D>(options, load(options.common), view, std::nullopt, checkpoint, restarted(film),
-                     frames);
+  scenes[0].scene = load(options.common);
+  return film_run<D>(options, scenes, view, std::nullopt, checkpoint, restarted(film), frames);
 }
 
 // Refuses an output that is the scene or its start state.
@@ -406,13 +439,20 @@ int submit(const RenderOptions& options, const Scene& scene, const FilmState& fi
 }
 
 int render(const RenderOptions& options) {
+  require_comparable(options);
   Scene scene = load(options.common, options.checkpoints.start_file());
   std::optional<Resumed> resumed = resume(options.common, options.checkpoints, scene);
   const FilmState film = film_asked_for(options, scene.view, resumed);
   const FrameRange frames = frames_asked_for(options, film);
   View view = scene.view;
   view.overlay = film.overlay;
-  require_few_windows(view, film.times.last());
+  const std::uint64_t seed = options.common.seed.value_or(resumed ? resumed->checkpoint.seed : 1);
+  const std::vector<ComparedScene> scenes =
+      compared_scenes({scene, seed}, options.compare, options.common, options.seed_flag);
+  require_cells(film.size, static_cast<int>(scenes.size()));
+  for (const ComparedScene& compared : scenes) {
+    require_few_windows(compared.scene.view, film.times.last());
+  }
   require_folder_of(options.out, "--out");
   require_format(options, film);
   if (!options.join.empty()) return join(options, scene, film);
@@ -423,21 +463,23 @@ int render(const RenderOptions& options) {
                                  {"--checkpoint", previous_checkpoint(checkpoint)},
                                  {"--out", options.out}};
   if (options.film()) outputs.push_back({"--out", pieces_folder(options.out)});
-  require_distinct(outputs, inputs_of(options.common, options.checkpoints, scene, checkpoint));
+  std::vector<std::filesystem::path> inputs =
+      inputs_of(options.common, options.checkpoints, scene, checkpoint);
+  for (auto& input : inputs_of(options.compare, scenes)) inputs.push_back(std::move(input));
+  require_distinct(outputs, inputs);
   require_checkpoint_place(checkpoint, options.checkpoints);
   catch_interrupts();
   const bool same_laws = resumed && changed_laws(*resumed).empty();
-  const std::uint64_t seed = resumed ? resumed->checkpoint.seed : 0;
   return with_dimension(scene.dimension(), [&](auto dimension) {
     try {
-      return film_run<dimension>(options, scene, view, std::move(resumed), checkpoint, film,
+      return film_run<dimension>(options, scenes, view, std::move(resumed), checkpoint, film,
                                  frames);
     } catch (const DamagedPiece& damage) {
       if (!same_laws) throw;
       std::fprintf(stderr, "clatter: %s; the film restarts from its beginning\n",
                    damage.problem().c_str());
     }
-    return film_again<dimension>(options, view, seed, checkpoint, film, frames);
+    return film_again<dimension>(options, scenes, view, checkpoint, film, frames);
   });
 }
 
@@ -447,6 +489,17 @@ void add_render_command(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<RenderOptions>();
   CLI::App* command = program.add_subcommand("render", "Film a scene, or draw one picture of it.");
   add_common_flags(*command, options->common);
+  command
+      ->add_option("scenes", options->compare.scenes,
+                   "Up to three more scenes. The film shows all gases beside each other.")
+      ->type_name("SCENE");
+  command
+      ->add_option("--compare", options->compare.settings,
+                   "Show the scene also with another value of a key, in a further cell beside it. "
+                   "Repeatable, up to four cells. --set applies to all cells.")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   add_progress_flag(*command, options->common);
   add_checkpoint_flags(*command, options->checkpoints);
   command
@@ -544,7 +597,10 @@ void add_render_command(CLI::App& program, int& exit_code) {
   }
   add_cluster_flags(*command, options->limits, options->dry_run, slurm);
   add_backend_flag(*command, options->backend);
-  command->callback([options, &exit_code] { exit_code = render(*options); });
+  command->callback([options, command, &exit_code] {
+    options->seed_flag = command->count("--seed") > 0;
+    exit_code = render(*options);
+  });
 }
 
 }  // namespace clatter

@@ -7,8 +7,7 @@
 
 #include "app/system/interrupt.h"
 #include "engine/checkpoint/archive.h"
-#include "engine/publish/moving_sum.h"
-#include "render/camera_path.h"
+#include "engine/error.h"
 
 namespace clatter {
 
@@ -30,11 +29,17 @@ static void visit(Archive& io, FilmSound& sound) {
 }
 
 template <class Archive>
+static void visit(Archive& io, CompanionState& state) {
+  auto& [ranges, camera, run] = state;
+  io(ranges, camera, run);
+}
+
+template <class Archive>
 static void visit(Archive& io, FilmState& state) {
   auto& [times, size, samples, shutter, transparent, overlay, sound, next, begin, ranges, camera,
-         shown, checksums, notes] = state;
+         shown, checksums, notes, companions] = state;
   io(times, size, samples, shutter, transparent, overlay, sound, next, begin, ranges, camera, shown,
-     checksums, notes);
+     checksums, notes, companions);
 }
 
 std::string to_bytes(FilmState state) {
@@ -53,19 +58,58 @@ std::optional<FilmState> film_of(const Resumed& resumed) {
   return state;
 }
 
+// The texts of the cells. Cells beside each other have headings of one height and no captions.
+static std::vector<OverlayText> texts_of(const std::vector<ComparedScene>& compared, double speed) {
+  const Scene& first = compared.front().scene;
+  OverlayText text{first.title, first.caption};
+  text.speed = speed;
+  if (compared.size() == 1) return {text};
+  text.caption.clear();
+  text.beside = cell_titles(compared);
+  std::vector<OverlayText> texts(compared.size(), text);
+  for (std::size_t k = 0; k < texts.size(); ++k) texts[k].title = text.beside[k];
+  return texts;
+}
+
 template <int D>
-Film<D>::Film(Run<D>& run, const Scene& scene, const View& view, FilmState state, const Gl& gl)
-    : run_(run),
-      scene_(scene),
-      view_(view),
-      text_{scene.title, scene.caption},
-      state_(std::move(state)),
-      canvas_(gl, state_.size),
-      renderer_(gl, state_.samples, state_.transparent, interrupted) {
-  run_.scheduled().show(view_, state_.shown, state_.exposure());
+Film<D>::Film(Run<D>& run, const std::vector<ComparedScene>& compared, const View& view,
+              FilmState state, int threads, const Gl& gl)
+    : run_(run), scene_(compared.front().scene), state_(std::move(state)) {
+  const std::size_t companions = compared.size() - 1;
+  if (state_.next > 0 && state_.companions.size() != companions) {
+    throw UserError({"--resume", 0, 0},
+                    fmt::format("the number of gases in the film of the checkpoint is {}, not {}",
+                                state_.companions.size() + 1, compared.size()),
+                    "give the same scenes, or begin another film with --from");
+  }
+  state_.companions.resize(companions);
+  run_.scheduled().show(view, state_.shown, state_.exposure());
   run_.film_state = [this] { return state_now(); };
-  if (state_.ranges) renderer_.fix(*state_.ranges);
+  add_cells(compared, view, threads, gl);
+  if (state_.ranges) {
+    cells_[0].fix(*state_.ranges);
+    for (std::size_t k = 0; k < companions; ++k) cells_[k + 1].fix(state_.companions[k].ranges);
+  }
   if (state_.sound && state_.sound->synthesiser) follow(run_.simulation());
+}
+
+// The cells of the run and of its companions, and the companions.
+template <int D>
+void Film<D>::add_cells(const std::vector<ComparedScene>& compared, const View& view, int threads,
+                        const Gl& gl) {
+  const std::vector<OverlayText> texts = texts_of(compared, state_.times.speed);
+  const auto add = [&](std::size_t k, const View& own) {
+    const Size size = cell_size(state_.size, static_cast<int>(k), static_cast<int>(texts.size()));
+    cells_.emplace_back(gl, size, state_.samples, state_.transparent, own, texts[k]);
+  };
+  add(0, view);
+  for (std::size_t k = 1; k < compared.size(); ++k) {
+    View own = compared[k].scene.view;
+    own.overlay = own.overlay && view.overlay;
+    companions_.push_back(companion_of(compared[k], own, state_.exposure(), threads,
+                                       state_.companions[k - 1].run, "--resume"));
+    add(k, own);
+  }
 }
 
 // A single picture needs no film state; it is drawn again.
@@ -74,6 +118,9 @@ std::string Film<D>::state_now() const {
   if (state_.times.count == 1) return "";
   FilmState state = state_;
   state.shown = run_.scheduled().save_shown();
+  for (std::size_t k = 0; k < companions_.size(); ++k) {
+    state.companions[k].run = companions_[k]->save();
+  }
   return to_bytes(std::move(state));
 }
 
@@ -83,7 +130,8 @@ long Film<D>::draw(const FrameRange& frames, FrameSink& sink, Progress& progress
   state_.begin = frames.begin;
   for (; state_.next < frames.end; ++state_.next) {
     const long frame = state_.next;
-    if (!run_.until(state_.times.of(frame), progress) || !choose_ranges(progress) ||
+    if (!run_.until(state_.times.of(frame), progress) ||
+        !companions_until(state_.times.of(frame)) || !choose_ranges(progress) ||
         !choose_sound(progress)) {
       return frame;
     }
@@ -94,25 +142,22 @@ long Film<D>::draw(const FrameRange& frames, FrameSink& sink, Progress& progress
       run_.mark();
     }
     // Skipped frames take a snapshot as well. Bitwise equal averages need the same snapshot times.
-    const Snapshot snapshot = run_.scheduled().snapshot();
-    if (!state_.camera) state_.camera = renderer_.fit(snapshot, canvas_.size(), view_, text_);
+    const std::vector<Snapshot> now = snapshots();
     if (frame < first) continue;
-    if (view_.card && state_.times.count > 1) {
-      text_.card = card_opacity(*view_.card, static_cast<double>(frame) / state_.times.fps);
+    if (state_.times.count > 1) {
+      const double seconds = static_cast<double>(frame) / state_.times.fps;
+      for (FilmCell& cell : cells_) cell.show_card(seconds);
     }
-    text_.speed = state_.times.speed;
-    const Camera camera = camera_at(view_.camera, snapshot, *state_.camera);
-    canvas_.bind();
+    Image picture;
     try {
-      renderer_.draw(snapshot, camera, canvas_.size(), view_, text_);
+      picture = picture_of(now);
     } catch (const Interrupted&) {
       run_.until(state_.times.of(frame), progress);  // notes the early end
       return frame;
     }
-    const Image picture = canvas_.read();
     state_.notes = notes();
     sink.add(state_.transparent ? with_own_colours(picture) : picture, state_.notes);
-    progress.update(snapshot.time);
+    progress.update(now[0].time);
   }
   if (state_.sound && state_.next == state_.times.count) end_sound(sink);
   return state_.next;
@@ -124,38 +169,75 @@ void Film<D>::end_part() {
   run_.mark();
 }
 
+// Brings the companions to the time of the run. Returns false at an interrupt or a stop.
 template <int D>
-bool Film<D>::choose_ranges(Progress& progress) {
-  if (state_.ranges || state_.times.count == 1) return true;
-  const RangeEnds ends = look_ahead();
-  // The look-ahead may have been interrupted.
-  if (!run_.until(run_.simulation().time(), progress)) return false;
-  state_.ranges = ends;
-  renderer_.fix(ends);
+bool Film<D>::companions_until(double time) {
+  for (std::size_t k = 0; k < companions_.size(); ++k) {
+    try {
+      if (companions_[k]->run_until(time)) continue;
+      run_.end_early();
+    } catch (const PhysicalStop& stop) {
+      const auto name = static_cast<char>('B' + k);
+      run_.end_early(PhysicalStop(std::string(1, name) + ": " + stop.what()));
+    }
+    return false;
+  }
   return true;
 }
 
-// The largest values at the ends of the parts of the window, and of its average.
+// All snapshots of the present frame. The first ones choose the cameras.
 template <int D>
-RangeEnds Film<D>::look_ahead() const {
-  const ScheduledRun<D>& run = run_.scheduled();
-  ScheduledRun<D> ahead(scene_, run.seed(), run.simulation().save());
-  ahead.show(view_, run.save_shown(), state_.exposure());
-  const double start = run.simulation().time();
-  const double window = std::min(view_.window, state_.times.last() - start);
-  RangeEnds ends;
-  try {
-    for (int part = 1; part <= kWindowParts; ++part) {
-      const double time = start + window * part / kWindowParts;
-      if (!ahead.run_until(time, kNoLimit, kNoLimit, interrupted)) return ends;
-      const double disks = ends.disks;
-      ends = range_ends(ahead.snapshot(), view_);
-      ends.disks = std::max(ends.disks, disks);
+std::vector<Snapshot> Film<D>::snapshots() {
+  std::vector<Snapshot> now = {run_.scheduled().snapshot()};
+  for (const auto& companion : companions_) now.push_back(companion->snapshot());
+  if (companions_.size() > 0 && state_.times.count == 1) {
+    std::vector<RangeEnds> ranges;
+    for (std::size_t k = 0; k < now.size(); ++k) {
+      ranges.push_back(range_ends(now[k], cells_[k].view()));
     }
-  } catch (const PhysicalStop&) {
-    // The film itself runs into the same stop later.
+    share_ranges(ranges);
   }
-  return ends;
+  if (!state_.camera) state_.camera = cells_[0].fit(now[0]);
+  for (std::size_t k = 0; k < companions_.size(); ++k) {
+    std::optional<Camera>& camera = state_.companions[k].camera;
+    if (!camera) camera = cells_[k + 1].fit(now[k + 1]);
+  }
+  return now;
+}
+
+template <int D>
+Image Film<D>::picture_of(const std::vector<Snapshot>& snapshots) {
+  Image first = cells_[0].draw(snapshots[0], *state_.camera);
+  if (companions_.empty()) return first;
+  std::vector<Image> pictures = {std::move(first)};
+  for (std::size_t k = 0; k < companions_.size(); ++k) {
+    pictures.push_back(cells_[k + 1].draw(snapshots[k + 1], *state_.companions[k].camera));
+  }
+  return joined_cells(state_.size, pictures);
+}
+
+template <int D>
+bool Film<D>::choose_ranges(Progress& progress) {
+  if (state_.ranges || state_.times.count == 1) return true;
+  const double last = state_.times.last();
+  std::vector<RangeEnds> ranges = {
+      first_ranges(run_.scheduled(), scene_, cells_[0].view(), state_.exposure(), last)};
+  for (const auto& companion : companions_) ranges.push_back(companion->first_ranges(last));
+  // The look-ahead may have been interrupted.
+  if (!run_.until(run_.simulation().time(), progress)) return false;
+  share_ranges(ranges);
+  return true;
+}
+
+// Gives all cells the same ranges.
+template <int D>
+void Film<D>::share_ranges(const std::vector<RangeEnds>& ranges) {
+  std::vector<View> views;
+  for (const FilmCell& cell : cells_) views.push_back(cell.view());
+  const std::vector<RangeEnds> shared = shared_ranges(ranges, views);
+  state_.ranges = shared[0];
+  for (std::size_t k = 0; k < cells_.size(); ++k) cells_[k].fix(shared[k]);
+  for (std::size_t k = 1; k < cells_.size(); ++k) state_.companions[k - 1].ranges = shared[k];
 }
 
 template <int D>
@@ -223,8 +305,13 @@ void Film<D>::end_sound(FrameSink& sink) const {
 template <int D>
 std::vector<PngText> Film<D>::notes() const {
   const Simulation<D>& simulation = run_.simulation();
-  return {{"Simulation time", fmt::format("{:.17g}", simulation.time())},
-          {"State hash", fmt::format("{:016x}", simulation.state_hash())}};
+  std::vector<PngText> notes = {{"Simulation time", fmt::format("{:.17g}", simulation.time())},
+                                {"State hash", fmt::format("{:016x}", simulation.state_hash())}};
+  for (std::size_t k = 0; k < companions_.size(); ++k) {
+    notes.push_back({fmt::format("State hash {}", static_cast<char>('B' + k)),
+                     fmt::format("{:016x}", companions_[k]->state_hash())});
+  }
+  return notes;
 }
 
 template class Film<2>;

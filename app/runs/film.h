@@ -1,14 +1,17 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/runs/companion.h"
+#include "app/runs/compared_scenes.h"
+#include "app/runs/film_cell.h"
 #include "app/runs/run.h"
 #include "engine/publish/click_recorder.h"
-#include "render/gl/canvas.h"
-#include "render/layers/renderer.h"
 #include "render/output/frame_sink.h"
 #include "render/sound/synthesiser.h"
 
@@ -40,6 +43,13 @@ struct FilmSound {
   long samples() const { return synthesiser ? synthesiser->samples() : 0; }
 };
 
+/// A companion of a film before the next frame.
+struct CompanionState {
+  RangeEnds ranges;              ///< colour ranges
+  std::optional<Camera> camera;  ///< shows the whole box; absent: not chosen yet
+  std::string run;               ///< see Companion::save()
+};
+
 /// All settings that the pictures of a film depend on, besides the scene and the run. Parts made
 /// with the same settings form one film.
 struct FilmState {
@@ -55,8 +65,9 @@ struct FilmState {
   std::optional<RangeEnds> ranges;  ///< colour ranges; absent: not chosen yet
   std::optional<Camera> camera;     ///< shows the whole box; absent: not chosen yet
   std::string shown;                ///< fields of the past, see ScheduledRun::save_shown()
-  std::vector<std::uint32_t> checksums = {};  ///< of the pieces before `next`, see FrameSink
-  std::vector<PngText> notes = {};            ///< of the picture before `next`
+  std::vector<std::uint32_t> checksums = {};    ///< of the pieces before `next`, see FrameSink
+  std::vector<PngText> notes = {};              ///< of the picture before `next`
+  std::vector<CompanionState> companions = {};  ///< of a film that compares gases, in order
 
   /// The simulation time that a frame averages over, before its own time.
   double exposure() const { return shutter * times.speed / times.fps; }
@@ -70,12 +81,15 @@ std::optional<FilmState> film_of(const Resumed& resumed);
 
 /// Films a run, frame by frame. Automatic colour ranges are chosen once, from the first averaging
 /// window of the whole film. The run computes this window in advance. The same holds for the scale
-/// of the sound.
+/// of the sound. Companions are drawn in cells beside the run, at the same times and with the same
+/// ranges.
 template <int D>
 class Film {
  public:
   /// A film of a run at frame `state.next`. A film of one frame takes its ranges from this frame.
-  Film(Run<D>& run, const Scene& scene, const View& view, FilmState state, const Gl& gl);
+  /// `compared` has the scene of the run, and then those of its companions, if any.
+  Film(Run<D>& run, const std::vector<ComparedScene>& compared, const View& view, FilmState state,
+       int threads, const Gl& gl);
 
   /// Draws the remaining frames of the range into a sink. Earlier frames are simulated, not drawn.
   /// Ends early if the run does. Returns the number of the next frame. Checkpoints continue from
@@ -88,8 +102,13 @@ class Film {
 
  private:
   std::string state_now() const;
+  void add_cells(const std::vector<ComparedScene>& compared, const View& view, int threads,
+                 const Gl& gl);
+  bool companions_until(double time);
   bool choose_ranges(Progress& progress);
-  RangeEnds look_ahead() const;
+  void share_ranges(const std::vector<RangeEnds>& ranges);
+  std::vector<Snapshot> snapshots();
+  Image picture_of(const std::vector<Snapshot>& snapshots);
   bool choose_sound(Progress& progress);
   SoundScale listen_ahead() const;
   void follow(Simulation<D>& next);
@@ -98,13 +117,11 @@ class Film {
   std::vector<PngText> notes() const;
 
   Run<D>& run_;
-  const Scene& scene_;
-  View view_;
-  OverlayText text_;
+  Scene scene_;
   FilmState state_;
-  Canvas canvas_;
-  Renderer renderer_;
-  ClickRecorder<D> clicks_;  ///< follows the run from the first frame on, if the film has sound
+  std::vector<std::unique_ptr<Companion>> companions_;
+  std::deque<FilmCell> cells_;  ///< of the run, then of its companions
+  ClickRecorder<D> clicks_;     ///< follows the run from the first frame on, if the film has sound
 };
 
 extern template class Film<2>;

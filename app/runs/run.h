@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "app/runs/event_recorder.h"
 #include "app/runs/options.h"
@@ -68,6 +69,11 @@ class Run {
   /// progress and tests for interrupts. Returns false after an early end: an interrupt or a stop.
   /// Throws RunError if the trajectory or the event log cannot be written.
   bool until(double time, Progress& progress);
+  /// Ends the run early, by an interrupt or by the stop of a gas beside it.
+  void end_early(std::optional<PhysicalStop> stop = {}) {
+    ended_early_ = true;
+    if (stop) stop_ = std::move(stop);
+  }
   /// Whether the last until() had an early end.
   bool ended_early() const { return ended_early_; }
   /// The film state for checkpoints, at the time of the run. Empty without a film.

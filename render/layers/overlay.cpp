@@ -51,7 +51,11 @@ Page arrange(Arrangement arrangement, const Fonts& fonts, const ThemeColours& th
       arrangement, fonts, theme, size, {}, edge, column ? kColumn * unit : size.width - 2 * edge};
   float end = page.caption = edge;
   if (!text.title.empty()) {
-    end += text_extent(*fonts.title, text.title, page.wrap).y;
+    float height = text_extent(*fonts.title, text.title, page.wrap).y;
+    for (const std::string& title : text.beside) {
+      height = std::max(height, text_extent(*fonts.title, title, page.wrap).y);
+    }
+    end += height;
     page.caption = end + std::round(0.35f * unit);
   }
   if (!text.caption.empty()) {

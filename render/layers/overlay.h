@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "engine/publish/snapshot.h"
 #include "render/camera.h"
@@ -19,6 +20,8 @@ struct OverlayText {
   double letters = 1.0;  ///< scale of all text
   double least = 0.0;    ///< smallest size of the text, pixels
   double speed = 1.0;    ///< simulation time per second, of captions that fade
+  /// Titles of the pictures beside this one. The headings of all of them have one height.
+  std::vector<std::string> beside = {};
 };
 
 /// Opacity of a title card `time` seconds after the beginning of a film. The card lasts `length`

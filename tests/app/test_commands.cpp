@@ -201,7 +201,7 @@ TEST_CASE("Commands: every command explains its flags, and only those") {
                        "--to",          "--speed",   "--supersample", "--shutter", "--no-overlay",
                        "--transparent", "--sound",   "--overwrite",   "--frames",  "--threads",
                        "--backend",     "--join",    "--slurm",       "--time",    "--partition",
-                       "--dry-run"})},
+                       "--compare",     "--dry-run"})},
       {"measure", with(with(scene, run),
                        {"--out", "--csv", "--vtk", "--hdf5", "--save-state", "--accuracy",
                         "--accuracy-of", "--replicas", "--threads", "--trajectory", "--every",

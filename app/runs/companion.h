@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "app/runs/compared_scenes.h"
+#include "engine/publish/snapshot.h"
+#include "render/layers/renderer.h"
+
+namespace clatter {
+
+/// A gas beside the run of a film, in step with it. Its scene has disks or spheres.
+class Companion {
+ public:
+  virtual ~Companion() = default;
+
+  /// Runs to a simulation time. Returns false at an interrupt. Throws PhysicalStop.
+  virtual bool run_until(double time) = 0;
+  /// The gas at its time.
+  virtual Snapshot snapshot() = 0;
+  /// As first_ranges().
+  virtual RangeEnds first_ranges(double last) const = 0;
+  /// As Simulation::state_hash().
+  virtual std::uint64_t state_hash() const = 0;
+  /// The run, its scene and its averages, for a checkpoint.
+  virtual std::string save() const = 0;
+};
+
+/// Starts the run of a scene with the averages of a view, or continues the result of save(); empty:
+/// none. `file` is the name of the checkpoint. Throws UserError if `saved` has another scene or
+/// seed.
+std::unique_ptr<Companion> companion_of(const ComparedScene& compared, const View& view,
+                                        double exposure, int threads, const std::string& saved,
+                                        const std::string& file);
+
+}  // namespace clatter

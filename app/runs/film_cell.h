@@ -1,0 +1,59 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/publish/scheduled_run.h"
+#include "render/gl/canvas.h"
+#include "render/layers/renderer.h"
+#include "render/output/image.h"
+
+namespace clatter {
+
+/// Draws a gas into its cell of the pictures of a film.
+class FilmCell {
+ public:
+  /// A cell of `size` with the heading `text`. The other arguments are as for Renderer.
+  FilmCell(const Gl& gl, Size size, int samples, bool transparent, const View& view,
+           OverlayText text);
+
+  const View& view() const { return view_; }
+  /// Fixes the ends of the automatic colour ranges.
+  void fix(const RangeEnds& ends) { renderer_.fix(ends); }
+  /// The camera that shows the whole box.
+  Camera fit(const Snapshot& snapshot) {
+    return renderer_.fit(snapshot, canvas_.size(), view_, text_);
+  }
+  /// Sets the title card to its state `seconds` after the start of the film.
+  void show_card(double seconds);
+  /// The picture of a snapshot. `whole` is the result of fit(). Throws Interrupted.
+  Image draw(const Snapshot& snapshot, const Camera& whole);
+
+ private:
+  View view_;
+  OverlayText text_;
+  Canvas canvas_;
+  Renderer renderer_;
+};
+
+/// The largest number of cells in a picture.
+inline constexpr int kMostCells = 4;
+
+/// Size of cell `number` of `count` in a picture of `whole` size. Cells are in a row; four are in
+/// two rows.
+Size cell_size(Size whole, int number, int count);
+
+/// The picture of `whole` size with these cells.
+Image joined_cells(Size whole, const std::vector<Image>& cells);
+
+/// Automatic colour ranges from the first averaging window of a film, that begins at the present
+/// time of the run: the largest values at the ends of the parts of the window, and of its average.
+/// The run stays where it is. `last` is the time of the last frame. Ends early at an interrupt.
+template <int D>
+RangeEnds first_ranges(const ScheduledRun<D>& run, const Scene& scene, const View& view,
+                       double exposure, double last);
+
+/// The same ranges for all views of the same quantities: the larger ends.
+std::vector<RangeEnds> shared_ranges(const std::vector<RangeEnds>& ranges,
+                                     const std::vector<View>& views);
+
+}  // namespace clatter
