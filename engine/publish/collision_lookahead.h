@@ -51,7 +51,7 @@ class CollisionLookahead {
   CollisionLookahead(const CollisionLookahead&) = delete;
   CollisionLookahead& operator=(const CollisionLookahead&) = delete;
 
-  /// Whether the run has had no nudge since, which the copy lacks.
+  /// False after a nudge of the run, which the copy lacks.
   bool follows(const Simulation<D>& simulation) const {
     return simulation.counts().nudges == ahead_.counts().nudges;
   }

@@ -122,7 +122,7 @@ class TomlWriter final : public KeyWriter {
   std::vector<std::string> path_;      // of the current table
   bool header_due_ = false;            // a table without own values gets no header
   bool in_item_ = false;               // tables of an item of a list are inline
-  std::optional<std::string> inline_;  // values of the open inline table; absent: none is open
+  std::optional<std::string> inline_;  // text of the open inline table; absent: no table is open
 };
 
 /// Writes a JSON object.

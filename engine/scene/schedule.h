@@ -36,8 +36,8 @@ class Schedule {
   /// Makes the next change of laws, if it has any. Throws UserError if the result is invalid, or
   /// needs another gas or box.
   void advance();
-  /// Makes all changes up to and at a simulation time. Without the changes from the nudge on that
-  /// follows the first `nudges`, if it is at this time.
+  /// Makes all changes up to and at the simulation time of a run that has had `nudges` nudges. A
+  /// nudge at this time that the run has not had stays, with all changes after it.
   void skip_to(double time, std::uint64_t nudges = ~std::uint64_t{0});
   /// Adds a change at the current time or later.
   void add(const Change& change);

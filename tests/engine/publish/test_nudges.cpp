@@ -236,7 +236,7 @@ TEST_CASE("Nudge: impossible nudges are refused with their place") {
   }
 }
 
-TEST_CASE("Nudge: spheres have none of those of disks, and a removed one is told") {
+TEST_CASE("Nudge: a change of dimension removes nudges, and names the key") {
   const ChangedDimension changed = change_dimension(nudged(), 3);
   REQUIRE(changed.scene.changes.size() == 1);
   CHECK_FALSE(changed.scene.changes[0].nudge);
