@@ -18,7 +18,7 @@ static char letter_of(int key) {
 Desktop::Desktop(GLFWwindow* window, WindowInput& input) : window_(window) {
   glfwSetWindowUserPointer(window, &input);
   glfwSetKeyCallback(window, [](GLFWwindow* of, int key, int, int action, int held) {
-    if (action == GLFW_RELEASE) return;
+    if (action == GLFW_RELEASE || key == GLFW_KEY_UNKNOWN) return;
     if (action == GLFW_REPEAT && !repeats(key)) return;
     static_cast<WindowInput*>(glfwGetWindowUserPointer(of))
         ->press(

@@ -56,7 +56,14 @@ void Gui::begin() {
   const float target = panels_.lecture ? kTarget * host_.content_scale() : 0.0f;
   apply_style(size, std::max(host_.least_target(), target), panel_theme(shown_view()));
   scale_ = std::max(1.0f, ImGui::GetIO().DisplayFramebufferScale.x);
+  // Dear ImGui sees a key that is released before the picture as pressed in it.
+  auto& down = ImGui::GetIO().KeysDown;
+  std::vector<int> released;
+  for (const KeyPress& press : input_.presses()) {
+    if (!std::exchange(down[press.key], true)) released.push_back(press.key);
+  }
   ImGui::NewFrame();
+  for (const int key : released) down[key] = false;
 }
 
 void Gui::draw() {
@@ -106,6 +113,7 @@ void Gui::draw() {
   gl.Enable(GL_BLEND);
   gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   gui_.draw(*ImGui::GetDrawData());
+  log_.event("picture", nlohmann::json::object());
 }
 
 void Gui::panels() {

@@ -24,6 +24,8 @@ class WindowInput {
   void press(const KeyPress& press) { presses_.push_back(press); }
   /// Adds a dropped file.
   void drop(const std::string& path) { dropped_.push_back(path); }
+  /// The keys pressed since the last call of take_presses.
+  const std::vector<KeyPress>& presses() const { return presses_; }
   /// The keys pressed since the last call, in order.
   std::vector<KeyPress> take_presses();
   /// The files dropped since the last call.

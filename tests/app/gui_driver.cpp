@@ -13,8 +13,22 @@ namespace clatter {
 using nlohmann::json;
 using namespace std::chrono_literals;
 
-// A person pauses between press, move and release. The program needs a new picture in between.
-static constexpr const char* kPause = " sleep 0.15 ";
+// Panels settle, and react to the mouse, within this number of pictures.
+static constexpr std::size_t kSettle = 3;
+// Longest wait for these pictures: a window without changes draws none, and shaken walls never
+// stand still.
+static constexpr auto kPatience = 2s;
+
+static void wait_until(const std::function<bool()>& is_so) {
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (!is_so() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(10ms);
+}
+
+static std::size_t pictures(const std::string& log, std::size_t from) {
+  std::size_t count = 0;
+  for (; (from = log.find(R"("event":"picture")", from)) != std::string::npos; ++from) ++count;
+  return count;
+}
 
 GuiDriver::GuiDriver(const std::string& arguments, const std::string& size,
                      const std::string& screen) {
@@ -28,8 +42,7 @@ GuiDriver::GuiDriver(const std::string& arguments, const std::string& size,
              " >out 2>err; echo $? >code) >/dev/null 2>&1 &");
   wait_for("status");
   tool("search --sync --name clatter windowmove 0 0 windowfocus --sync");
-  wait_for("widget", 0, [](const json& event) { return event["name"] == "viewport"; });
-  std::this_thread::sleep_for(300ms);
+  place("viewport");
 }
 
 Outcome GuiDriver::run(const std::string& line) const {
@@ -40,8 +53,15 @@ void GuiDriver::tool(const std::string& line) const {
   REQUIRE(run("xdotool " + line).code == 0);
 }
 
-void GuiDriver::key(const std::string& name) const {
-  tool("key --delay 120 " + name + kPause);
+void GuiDriver::act(const std::string& line) const {
+  tool(line);
+  const std::size_t before = pictures(shell_.read("log"), 0);
+  wait_until([&] { return pictures(shell_.read("log"), 0) >= before + kSettle; });
+}
+
+void GuiDriver::key(const std::string& names) const {
+  std::istringstream keys(names);
+  for (std::string key; keys >> key;) act("key " + key);
 }
 
 std::vector<json> GuiDriver::events(const std::string& name) const {
@@ -64,43 +84,60 @@ json GuiDriver::wait_for(const std::string& event, std::size_t after,
     }
     std::this_thread::sleep_for(50ms);
   } while (std::chrono::steady_clock::now() < end);
-  FAIL("no event '" << event << "' after the first " << after << ", but "
-                    << shell_.read("log").substr(0, 2000) << shell_.read("err"));
+  const std::string last = shell_.run("grep -v '\"status\"' log | tail -n 20").out;
+  FAIL("no event '" << event << "' after the first " << after << "; the last ones are\n"
+                    << last << shell_.read("err"));
   return {};
 }
 
-std::vector<double> GuiDriver::place(const std::string& widget) const {
-  return wait_for("widget", 0, [&](const json& event) { return event["name"] == widget; })["place"];
+std::vector<double> GuiDriver::place(const std::string& widget, std::size_t after) const {
+  const auto is_it = [&](const json& event) { return event["name"] == widget; };
+  wait_for("widget", after, is_it);
+  const std::string line = R"("event":"widget","name":")" + widget + '"';
+  wait_until([&] {
+    const std::string log = shell_.read("log");
+    return pictures(log, log.rfind(line)) >= kSettle;
+  });
+  return wait_for("widget", after, is_it)["place"];
 }
 
+// A place in a widget, at a share of its width.
 static std::string at(const std::vector<double>& place, double share) {
   return std::to_string(std::lround(place[0] + share * place[2])) + ' ' +
          std::to_string(std::lround(place[1] + 0.5 * place[3]));
 }
 
+// Moves the mouse to a place, also if it is there already: two moves are at least one event.
+static std::string move_to(const std::string& place) {
+  return "mousemove " + place + " mousemove_relative 1 0 mousemove " + place;
+}
+
 void GuiDriver::point_at(const std::string& widget, double share) const {
-  tool("mousemove " + at(place(widget), share) + kPause);
+  act(move_to(at(place(widget), share)));
 }
 
 void GuiDriver::click(const std::string& widget) const {
-  tool("mousemove " + at(place(widget), 0.5) + kPause + "mousedown 1" + kPause + "mouseup 1" +
-       kPause);
+  point_at(widget);
+  act("mousedown 1");
+  act("mouseup 1");
 }
 
 void GuiDriver::drag(const std::string& widget, double from, double to) const {
   const std::vector<double> where = place(widget);
-  std::string line = "mousemove " + at(where, from) + kPause + "mousedown 1" + kPause;
+  act(move_to(at(where, from)));
+  act("mousedown 1");
   constexpr int kSteps = 6;
   for (int step = 1; step <= kSteps; ++step) {
-    line += "mousemove " + at(where, from + (to - from) * step / kSteps) + kPause;
+    act(move_to(at(where, from + (to - from) * step / kSteps)));
   }
-  tool(line + "mouseup 1" + kPause);
+  act("mouseup 1");
 }
 
 void GuiDriver::pull(const std::string& widget, int right, int down) const {
-  const std::string way = std::to_string(right) + ' ' + std::to_string(down);
-  tool("mousemove " + at(place(widget), 0.5) + kPause + "mousedown 1" + kPause +
-       "mousemove_relative -- " + way + kPause + "mouseup 1" + kPause);
+  point_at(widget);
+  act("mousedown 1");
+  act("mousemove_relative -- " + std::to_string(right) + ' ' + std::to_string(down));
+  act("mouseup 1");
 }
 
 std::vector<int> GuiDriver::pixel(int x, int y) const {

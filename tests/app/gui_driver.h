@@ -22,8 +22,10 @@ class GuiDriver {
   Outcome run(const std::string& line) const;
   /// Runs a line of xdotool.
   void tool(const std::string& line) const;
-  /// Presses and releases a key with this xdotool name.
-  void key(const std::string& name) const;
+  /// Runs a line of xdotool, and waits until the program has drawn pictures with its effect.
+  void act(const std::string& line) const;
+  /// Presses and releases keys with these xdotool names, one after the other.
+  void key(const std::string& names) const;
   /// Moves the mouse to this share of the width of a widget.
   void point_at(const std::string& widget, double share = 0.5) const;
   void click(const std::string& widget) const;
@@ -37,6 +39,9 @@ class GuiDriver {
   nlohmann::json wait_for(
       const std::string& event, std::size_t after = 0,
       const std::function<bool(const nlohmann::json&)>& is_it = [](auto&) { return true; }) const;
+  /// Rectangle of a widget, once it stands still: left, top, width, height. Its newest move is not
+  /// one of the first `after` events.
+  std::vector<double> place(const std::string& widget, std::size_t after = 0) const;
   /// The events in the log, or the events of one name.
   std::vector<nlohmann::json> events(const std::string& name = "") const;
   /// The number of events in the log.
@@ -56,8 +61,6 @@ class GuiDriver {
     ~Screen() { shell.run("kill $(cat xvfb)"); }
   };
 
-  /// Rectangle of a widget: left, top, width, height.
-  std::vector<double> place(const std::string& widget) const;
 
   Shell shell_;
   Screen screen_{shell_};

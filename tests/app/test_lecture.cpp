@@ -179,16 +179,6 @@ TEST_CASE("Playlist: each mistake is refused at its place") {
 
 TEST_SUITE_BEGIN("window");
 
-namespace {
-
-// The rectangle of a widget after the first `told` events: left, top, width, height.
-json place_of(const GuiDriver& driver, const std::string& widget, std::size_t told = 0) {
-  return driver.wait_for("widget", told,
-                         [&](const json& event) { return event["name"] == widget; })["place"];
-}
-
-}  // namespace
-
 TEST_CASE("Window: lecture mode has the sliders of the scene, and one drives the gas") {
   const GuiDriver driver(
       "--set 'view.lecture.sliders=[\"walls.left.drive_speed\", \"particles.restitutio\"]'");
@@ -197,7 +187,7 @@ TEST_CASE("Window: lecture mode has the sliders of the scene, and one drives the
   const json message = driver.wait_for("message", told);
   CHECK(
       says(message["text"], "no control \"particles.restitutio\"; try \"particles.restitution\""));
-  CHECK(place_of(driver, "lecture.plot", told)[2] > 300.0);
+  CHECK(driver.place("lecture.plot", told)[2] > 300.0);
   driver.drag("walls.left.drive_speed", 0.2, 0.8);
   const json set = driver.wait_for("set", told);
   CHECK(std::stod(set["keys"]["walls.left.drive_speed"].get<std::string>()) > 2.0);
@@ -211,11 +201,11 @@ TEST_CASE("Window: the targets of lecture mode are at least 44 points high, at e
                              "lecture.timeline", "lecture.pen", "lecture.pointer",
                              "lecture.stopwatch", "lecture.settings", "lecture.close"}) {
     CAPTURE(widget);
-    const json place = place_of(driver, widget, told);
+    const std::vector<double> place = driver.place(widget, told);
     CHECK(place[2] >= 44.0);
     CHECK(place[3] >= 44.0);
-    CHECK(place[0].get<double>() + place[2].get<double>() <= 800.0);
-    CHECK(place[1].get<double>() + place[3].get<double>() <= 500.0);
+    CHECK(place[0] + place[2] <= 800.0);
+    CHECK(place[1] + place[3] <= 500.0);
   }
 }
 
@@ -224,7 +214,7 @@ TEST_CASE("Window: the tools of lecture mode: timeline, stopwatch, pen, plot and
   driver.key("l");
   std::size_t told = driver.told();
   driver.click("lecture.timeline");
-  place_of(driver, "timeline", told);
+  driver.place("timeline", told);
 
   told = driver.told();
   driver.key("w");
@@ -244,9 +234,9 @@ TEST_CASE("Window: the tools of lecture mode: timeline, stopwatch, pen, plot and
   driver.key("d");
   told = driver.told();
   driver.pull("viewport", 60, 40);
-  const json viewport = place_of(driver, "viewport");
+  const std::vector<double> viewport = driver.place("viewport");
   const auto middle = [&](int axis) {
-    return static_cast<int>(viewport[axis].get<double>() + 0.5 * viewport[axis + 2].get<double>());
+    return static_cast<int>(viewport[axis] + 0.5 * viewport[axis + 2]);
   };
   CHECK(driver.pixel(middle(0) + 30, middle(1) + 20) == std::vector<int>{0xd5, 0x5e, 0x00});
   CHECK(driver.events("pick").empty());
@@ -270,7 +260,7 @@ TEST_CASE("Window: the tools of lecture mode: timeline, stopwatch, pen, plot and
 TEST_CASE("Window: its size scales all texts at once, within the room of lecture mode") {
   const GuiDriver driver("", "1280x1700");
   const auto height = [&](const char* widget, std::size_t told) {
-    return place_of(driver, widget, told)[3].get<double>();
+    return driver.place(widget, told)[3];
   };
   const double button = height("play", 0);
   std::size_t told = driver.told();

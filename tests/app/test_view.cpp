@@ -69,18 +69,13 @@ std::vector<double> column_of(const std::string& table, const std::string& name)
   return values;
 }
 
-// The rectangle of a widget after the first `told` events: left, top, width, height.
-json place_of(const GuiDriver& driver, const std::string& widget, std::size_t told = 0) {
-  return driver.wait_for("widget", told,
-                         [&](const json& event) { return event["name"] == widget; })["place"];
-}
-
 // Whether the upper left corner of the viewport gets a colour. The log is ahead of the screen by a
 // picture.
 bool corner_becomes(const GuiDriver& driver, const std::vector<int>& colour) {
   for (int look = 0; look < 50; ++look) {
-    const json place = place_of(driver, "viewport");
-    if (driver.pixel(place[0].get<int>() + 3, place[1].get<int>() + 3) == colour) return true;
+    const std::vector<double> place = driver.place("viewport");
+    if (driver.pixel(static_cast<int>(place[0]) + 3, static_cast<int>(place[1]) + 3) == colour)
+      return true;
   }
   return false;
 }
@@ -250,8 +245,8 @@ TEST_CASE("Window: a wall that is dragged makes another box for the same disks")
 
 TEST_CASE("Window: a click on a wall changes nothing, and a dragged wall moves with the mouse") {
   const GuiDriver driver("");
-  const json left = place_of(driver, "wall.left");
-  const double pixels = left[3].get<double>() / 25.0;  // per diameter
+  const std::vector<double> left = driver.place("wall.left");
+  const double pixels = left[3] / 25.0;  // per diameter
   driver.click("wall.right");
   driver.click("wall.left");
   driver.pull("wall.right", 30, 0);
@@ -289,10 +284,10 @@ TEST_CASE("Window: Esc closes the open list, then the panel with it") {
   std::size_t told = driver.told();
   driver.key("Escape");
   driver.click("plots.profile.density");  // a place in the plots, if the list is closed
-  CHECK(place_of(driver, "viewport")[2] < 1000.0);
+  CHECK(driver.place("viewport")[2] < 1000.0);
   told = driver.told();
   driver.key("Escape");
-  CHECK(place_of(driver, "viewport", told)[2] > 1000.0);
+  CHECK(driver.place("viewport", told)[2] > 1000.0);
 }
 
 TEST_CASE("Window: a click on a number types another one, at most the largest") {
@@ -317,7 +312,7 @@ TEST_CASE("Window: a click on a number types another one, at most the largest") 
   driver.tool("type --delay 100 0.123");
   driver.key("Escape");
   driver.key("p");
-  place_of(driver, "viewport", after);
+  driver.place("viewport", after);
   CHECK(driver.events("set").size() == 2);
 }
 
@@ -353,7 +348,7 @@ TEST_CASE("Window: arrows and Enter choose a scene of the gallery") {
   driver.wait_for("gallery", told);
   driver.key("slash");
   driver.tool("type --delay 100 zzz");
-  place_of(driver, "gallery.none", told);
+  driver.place("gallery.none", told);
   driver.key("Return");
   for (int i = 0; i < 3; ++i) driver.key("BackSpace");
   driver.tool("type --delay 100 cradle");
@@ -420,9 +415,7 @@ TEST_CASE("Window: balance residuals are computed only while they are plotted") 
 
 TEST_CASE("Window: the lesson closes, and lecture mode has the colours for a projector") {
   const GuiDriver driver("", "1280x1500");
-  const auto height = [&](std::size_t told) {
-    return place_of(driver, "viewport", told)[3].get<double>();
-  };
+  const auto height = [&](std::size_t told) { return driver.place("viewport", told)[3]; };
   const double before = height(0);
   std::size_t told = driver.told();
   driver.click("close_lesson");
@@ -439,18 +432,18 @@ TEST_CASE("Window: the lesson closes, and lecture mode has the colours for a pro
   // Panels and plots on request, and without them again.
   told = driver.told();
   driver.key("Tab");
-  const json beside = place_of(driver, "viewport", told);
+  const std::vector<double> beside = driver.place("viewport", told);
   CHECK(beside[0] > 100.0);
   told = driver.told();
   driver.key("p");
-  CHECK(place_of(driver, "viewport", told)[2].get<double>() < beside[2].get<double>() - 100.0);
+  CHECK(driver.place("viewport", told)[2] < beside[2] - 100.0);
   // The plot of lecture mode on request, and the sliders below the gas without it.
   told = driver.told();
   driver.key("Tab");
-  CHECK(place_of(driver, "viewport", told)[2] < 1180.0);
+  CHECK(driver.place("viewport", told)[2] < 1180.0);
   told = driver.told();
   driver.key("p");
-  CHECK(place_of(driver, "viewport", told)[2] == 1280.0);
+  CHECK(driver.place("viewport", told)[2] == 1280.0);
   driver.key("p");
   told = driver.told();
   driver.key("Escape");
@@ -460,14 +453,14 @@ TEST_CASE("Window: the lesson closes, and lecture mode has the colours for a pro
 
 TEST_CASE("Window: a narrow one has one sheet at a time below the gas") {
   const GuiDriver driver("", "480x800");
-  const auto viewport = [&](std::size_t told) { return place_of(driver, "viewport", told); };
-  const json whole = viewport(0);
+  const auto viewport = [&](std::size_t told) { return driver.place("viewport", told); };
+  const std::vector<double> whole = viewport(0);
   CHECK(whole[2] == 480.0);
   std::size_t told = driver.told();
   driver.click("sheet.gas");
-  const json half = viewport(told);
+  const std::vector<double> half = viewport(told);
   CHECK(half[2] == 480.0);
-  CHECK(half[3] < 0.6 * whole[3].get<double>());
+  CHECK(half[3] < 0.6 * whole[3]);
   told = driver.told();
   driver.click("rough");
   driver.wait_for("set", told);

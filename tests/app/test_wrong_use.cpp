@@ -28,7 +28,9 @@ TEST_CASE("Wrong use: an unknown flag is named before missing arguments") {
     check_refused(shell, line, {"clatter: there is no flag --frobnicate; `clatter help COMMAND`"});
   }
   check_refused(shell, "clatter render", {"scene is required"});
-  check_refused(shell, "clatter render vibrated --out a.mp4 word", {"not expected: word"});
+  check_refused(shell, "clatter render vibrated --out a.mp4 word",
+                {"word: there is no such scene"});
+  check_refused(shell, "clatter measure vibrated --out a.json word", {"not expected: word"});
 }
 
 TEST_CASE("Wrong use: messages about flags have no words of the parser and no control characters") {
