@@ -22,8 +22,8 @@
 #include "engine/publish/publish.h"
 #include "engine/publish/scheduled_run.h"
 #include "engine/publish/triple_buffer.h"
+#include "engine/scene/enum_names.h"
 #include "engine/scene/scene_file.h"
-#include "engine/scene/scene_keys.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {

@@ -13,8 +13,8 @@
 #include "engine/measure/balance.h"
 #include "engine/measure/profile.h"
 #include "engine/publish/scheduled_run.h"
+#include "engine/scene/field.h"
 #include "engine/scene/scene_file.h"
-#include "engine/scene/scene_keys.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <string>
 
-#include "engine/scene/scene_keys.h"
+#include "engine/scene/enum_names.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {

@@ -10,7 +10,7 @@
 
 #include "app/results/growing_dataset.h"
 #include "engine/error.h"
-#include "engine/scene/scene_keys.h"
+#include "engine/scene/field.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {

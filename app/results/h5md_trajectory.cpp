@@ -11,7 +11,7 @@
 #include "app/results/h5md_reader.h"
 #include "app/results/three_axes.h"
 #include "engine/error.h"
-#include "engine/scene/scene_keys.h"
+#include "engine/scene/field.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {

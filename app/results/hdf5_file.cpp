@@ -9,7 +9,7 @@
 
 #include "app/results/hdf5_writer.h"
 #include "app/results/result_json.h"
-#include "engine/scene/scene_keys.h"
+#include "engine/scene/enum_names.h"
 
 namespace clatter {
 

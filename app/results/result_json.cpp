@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/results/theory_json.h"
+#include "engine/scene/enum_names.h"
 #include "engine/scene/scene_file.h"
-#include "engine/scene/scene_keys.h"
 
 namespace clatter {
 

@@ -11,7 +11,7 @@
 #include "engine/measure/measurement.h"
 #include "engine/observables/observables.h"
 #include "engine/physics/theory.h"
-#include "engine/scene/scene_keys.h"
+#include "engine/scene/enum_names.h"
 
 namespace clatter {
 

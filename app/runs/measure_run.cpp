@@ -28,7 +28,7 @@
 #include "engine/error.h"
 #include "engine/measure/measurement.h"
 #include "engine/physics/theory.h"
-#include "engine/scene/scene_keys.h"
+#include "engine/scene/enum_names.h"
 #include "engine/scene/state_file.h"
 #include "engine/scene/text.h"
 #include "engine/system/write_file.h"

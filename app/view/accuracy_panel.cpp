@@ -6,8 +6,9 @@
 
 #include "app/runs/feature_cost.h"
 #include "app/view/panels.h"
+#include "engine/scene/enum_names.h"
+#include "engine/scene/key_rules.h"
 #include "engine/scene/key_writer.h"
-#include "engine/scene/scene_keys.h"
 
 namespace clatter {
 

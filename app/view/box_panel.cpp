@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "app/view/panels.h"
+#include "engine/scene/gas_keys.h"
 #include "engine/scene/key_writer.h"
-#include "engine/scene/scene_keys.h"
 
 namespace clatter {
 

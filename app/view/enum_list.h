@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/view/controls.h"
-#include "engine/scene/scene_keys.h"
+#include "engine/scene/enum_names.h"
 #include "engine/scene/text.h"
 
 namespace clatter {

@@ -13,9 +13,9 @@
 #include "app/view/style.h"
 #include "app/view/table_plots.h"
 #include "app/view/top_bar.h"
+#include "engine/scene/enum_names.h"
 #include "engine/scene/key_writer.h"
 #include "engine/scene/scene_file.h"
-#include "engine/scene/scene_keys.h"
 
 namespace clatter {
 

@@ -14,7 +14,7 @@
 #include "app/view/plot_colours.h"
 #include "app/view/plots.h"
 #include "app/view/style.h"
-#include "engine/scene/scene_keys.h"
+#include "engine/scene/enum_names.h"
 #include "engine/scene/text.h"
 #include "render/layers/fonts.h"
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "app/view/plot_colours.h"
-#include "engine/scene/scene_keys.h"
+#include "engine/scene/enum_names.h"
 #include "engine/scene/text.h"
 #include "render/label.h"
 

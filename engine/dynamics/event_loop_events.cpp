@@ -10,7 +10,7 @@
 #include "engine/dynamics/prefetch.h"
 #include "engine/error.h"
 #include "engine/physics/random.h"
-#include "engine/scene/scene_keys.h"
+#include "engine/scene/limits.h"
 
 // The effects of events on particles; event_loop.cpp has the loop.
 

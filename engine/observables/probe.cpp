@@ -3,7 +3,7 @@
 #include <limits>
 #include <string>
 
-#include "engine/scene/scene_keys.h"
+#include "engine/scene/enum_names.h"
 
 namespace clatter {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "engine/observables/region_of_centres.h"
-#include "engine/scene/scene_keys.h"
+#include "engine/scene/enum_names.h"
 
 namespace clatter {
 

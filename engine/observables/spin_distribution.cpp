@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/observables/histogram.h"
-#include "engine/scene/scene_keys.h"
+#include "engine/scene/enum_names.h"
 
 namespace clatter {
 

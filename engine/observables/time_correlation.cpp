@@ -3,7 +3,7 @@
 #include <string>
 
 #include "engine/observables/lag_table.h"
-#include "engine/scene/scene_keys.h"
+#include "engine/scene/enum_names.h"
 
 namespace clatter {
 

@@ -7,7 +7,7 @@
 #include "engine/observables/histogram.h"
 #include "engine/observables/log_bins.h"
 #include "engine/observables/signed_bins.h"
-#include "engine/scene/scene_keys.h"
+#include "engine/scene/enum_names.h"
 
 namespace clatter {
 

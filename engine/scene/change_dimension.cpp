@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "engine/physics/theory.h"
+#include "engine/scene/field.h"
 #include "engine/scene/scene_file.h"
-#include "engine/scene/scene_keys.h"
 
 namespace clatter {
 

@@ -11,8 +11,9 @@
 #include <vector>
 
 #include "engine/error.h"
+#include "engine/scene/key_rules.h"
+#include "engine/scene/key_table.h"
 #include "engine/scene/key_values.h"
-#include "engine/scene/scene_keys.h"
 
 namespace clatter {
 

@@ -6,6 +6,9 @@
 
 namespace clatter {
 
+/// The commands that run a gas.
+inline constexpr std::string_view kRunCommands = "view render measure";
+
 /// A key of the scene file with its documentation.
 struct Key {
   std::string_view name;

@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/scene_keys.h"
+#include "engine/scene/key_rules.h"
+#include "engine/scene/scene.h"
 
 namespace clatter {
 

@@ -7,7 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/scene/scene_keys.h"
+#include "engine/scene/enum_names.h"
+#include "engine/scene/key_rules.h"
+#include "engine/scene/key_table.h"
 
 namespace clatter {
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "engine/scene/enum_names.h"
 #include "engine/scene/scene.h"
-#include "engine/scene/scene_keys.h"
 #include "engine/scene/text.h"
 
 namespace clatter {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "engine/scene/scene_keys.h"
+#include "engine/scene/scene_input.h"
 
 namespace clatter {
 

@@ -15,6 +15,7 @@
 #include "engine/scene/key_writer.h"
 #include "engine/scene/scene_checks.h"
 #include "engine/scene/scene_document.h"
+#include "engine/scene/scene_keys.h"
 #include "engine/scene/schedule.h"
 #include "engine/scene/state_file.h"
 #include "engine/scene/text.h"

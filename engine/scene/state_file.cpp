@@ -11,7 +11,7 @@
 
 #include "engine/dimension.h"
 #include "engine/error.h"
-#include "engine/scene/scene_keys.h"
+#include "engine/scene/limits.h"
 #include "engine/scene/text.h"
 
 namespace clatter {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "engine/scene/scene_keys.h"
+#include "engine/scene/enum_names.h"
 #include "render/contrast_maps.h"
 #include "render/theme.h"
 

@@ -7,7 +7,7 @@
 #include "engine/error.h"
 #include "engine/measure/measurement.h"
 #include "engine/measure/residuals.h"
-#include "engine/scene/scene_keys.h"
+#include "engine/scene/field.h"
 #include "tests/engine/measure/scenes.h"
 
 using namespace clatter;

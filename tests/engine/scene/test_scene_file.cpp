@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "engine/embedded_file.h"
+#include "engine/scene/field.h"
 #include "engine/scene/scene_file.h"
-#include "engine/scene/scene_keys.h"
 #include "tests/engine/scene/refusal.h"
 #include "tests/support/temporary_folder.h"
 
