@@ -231,8 +231,8 @@ void MouseTools::mark(ImDrawList& list, const Frame& frame, const WindowMap& map
   const double size = has_circle(tool) ? radius(*frame.scene) : 0.5 * frame.snapshot.diameter;
   if (const auto outline = map.outline(target_->place, size)) {
     const auto& [centre, radius] = *outline;
-    const ImU32 alpha = press_ ? 0x50000000 : 0x20000000;
-    if (has_circle(tool)) list.AddCircleFilled(centre, radius, (ink & 0x00ffffff) | alpha);
+    constexpr ImU32 kFaint = 0x30000000, kRgb = 0x00ffffff;
+    if (has_circle(tool) && press_) list.AddCircleFilled(centre, radius, (ink & kRgb) | kFaint);
     list.AddCircle(centre, radius + (has_circle(tool) ? 0.0f : 2.0f), ink, 0, 2.5f);
   }
   if (press_ && press_->dragged && has_arrow(tool)) draw_arrow(list, frame, map, ink);
@@ -249,12 +249,17 @@ void MouseTools::draw_arrow(ImDrawList& list, const Frame& frame, const WindowMa
   const ImVec2 along(x / length, y / length);
   const ImVec2 neck(to.x - head * along.x, to.y - head * along.y);
   const ImVec2 side(-0.45f * head * along.y, 0.45f * head * along.x);
+  const ImU32 ground = ImGui::GetColorU32(ImGuiCol_PopupBg);
+  list.AddLine(*from, neck, ground, 0.4f * unit);
   list.AddLine(*from, neck, ink, 0.25f * unit);
   list.AddTriangleFilled(to, ImVec2(neck.x + side.x, neck.y + side.y),
                          ImVec2(neck.x - side.x, neck.y - side.y), ink);
   const std::string text = fmt::format("{:.3g} a/t", velocity(frame, map).norm());
-  list.AddText(ImVec2(to.x + unit, to.y - 0.5f * unit), ImGui::GetColorU32(ImGuiCol_Text),
-               text.c_str());
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const ImVec2 low(to.x + 1.2f * unit, to.y - 0.5f * size.y), edge(0.4f * unit, 0.15f * unit);
+  list.AddRectFilled(ImVec2(low.x - edge.x, low.y - edge.y),
+                     ImVec2(low.x + size.x + edge.x, low.y + size.y + edge.y), ground, edge.x);
+  list.AddText(low, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
 }
 
 }  // namespace clatter
