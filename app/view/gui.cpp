@@ -294,11 +294,12 @@ void Gui::viewport() {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.MouseWheel != 0.0f || ImGui::IsMouseDown(0) || panels_.gallery) panels_.hint = false;
   message_.draw(session_, area_);
-  const bool quiet = panels_.help || panels_.lecture || panels_.narrow || controls_.chooses();
+  const bool quiet = message_.shown() || panels_.help || panels_.lecture || panels_.narrow ||
+                     controls_.chooses() || !session_.view().captions.empty();
   const char* hint = mouse_tools_.hint();
-  if (!message_.shown() && hint) {
+  if (!quiet && hint) {
     hint_line(hint, area_);
-  } else if (!message_.shown() && panels_.hint && !quiet) {
+  } else if (!quiet && panels_.hint) {
     hint_line(std::string(frame.snapshot.box.size() == 2 ? "drag a slider" : "drag to turn") +
                   "  ·  scroll to zoom  ·  G for the gallery",
               area_);

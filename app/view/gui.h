@@ -87,6 +87,7 @@ class Gui {
   void toggle_pen();
   void lift_pen();
   void toggle_tool(Tool tool);
+  bool bar_has_tools() const;
   void lecture_settings();
   bool choose_sliders(Lecture& lecture);
   bool choose_lecture_plot(Lecture& lecture);

@@ -253,6 +253,7 @@ float Gui::lecture_bar() {
     tools_.timeline = !tools_.timeline;
   }
   for (const ToolText& tool : kTools) {
+    if (!bar_has_tools()) break;
     if (button(tool.key, tool.name, tool.help, mouse_tools_.tool() == tool.tool)) {
       toggle_tool(tool.tool);
     }
@@ -273,6 +274,12 @@ float Gui::lecture_bar() {
   ImGui::End();
   ImGui::PopStyleVar(2);
   return height;
+}
+
+// Whether the bar has room for the mouse tools in its only line. Else they are in the settings.
+bool Gui::bar_has_tools() const {
+  constexpr float kWidth = 48.0f;  // of the bar with them, in text sizes
+  return ImGui::GetIO().DisplaySize.x > kWidth * ImGui::GetFontSize();
 }
 
 // The stopwatch with its times. The room for the times does not depend on their digits.
@@ -341,7 +348,11 @@ void Gui::lecture_settings() {
   const bool sliders = choose_sliders(view.lecture);
   const bool plot = choose_lecture_plot(view.lecture);
   controls_.show(view, sliders || plot);
-  mouse_tools_.radius_slider(session_.scene(), controls_);
+  if (bar_has_tools()) {
+    mouse_tools_.radius_slider(session_.scene(), controls_);
+  } else if (mouse_tools_.panel(session_.scene(), controls_)) {
+    lift_pen();
+  }
   controls_.toggle("lecture.captions", "Caption", "The caption of the scene", tools_.captions);
   if (choose(controls_, "lecture.theme", "Theme", "Colours in lecture mode", kThemes, tools_.theme,
              Theme::Projector)) {

@@ -143,7 +143,7 @@ constexpr std::array<KeyLine, 30> kKeys = {{
     {"Shift + .   Shift + ,", "next, previous collision, with the pair marked"},
     {"←  →   Home   End", "back, forth by a second of playing; start, latest time"},
     {"Shift + drag", "on the timeline: repeat this stretch; a click ends that"},
-    {"Drag a mark", "on the timeline: move a change of laws to another time"},
+    {"Drag a mark", "on the timeline: move a change to another time"},
     {"R   Shift + R", "restart; with a new seed"},
     {"+  −", "faster, slower"},
     {"G", "gallery; / searches it"},

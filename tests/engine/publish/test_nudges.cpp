@@ -286,6 +286,13 @@ TEST_CASE("Nudge: by hand it is recorded at its time, and a run of its scene has
     run->tell(frame, true);
     CHECK(frame.tally.nudges_in > 0.0);
     CHECK(hash_of_scene(frame, 6.0) == *frame.state_hash);
+    // The record has the states at the nudges.
+    for (const double time : {5.0, at + 0.02, 0.5 * at}) {
+      run->go_back(time);
+      run->run_until(time, kNoLimit, kNoLimit);
+      run->tell(frame, true);
+      CHECK(hash_of_scene(frame, time) == *frame.state_hash);
+    }
   }
 }
 
