@@ -48,8 +48,8 @@ struct MoveChange {
   std::size_t number = 0;  ///< index into Scene::changes
   double time = 0.0;       ///< simulation time > 0; a ramp keeps its duration
 };
-/// Gives the run other changes from a simulation time > 0 on, see WatchedRun::replace_changes(), and
-/// halts.
+/// Gives the run other changes from a simulation time > 0 on, see WatchedRun::replace_changes(),
+/// and halts.
 struct ReplaceChanges {
   std::vector<Change> changes;
   double from = 0.0;
