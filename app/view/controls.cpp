@@ -345,9 +345,12 @@ bool Controls::toggle(const char* key, const char* name, const char* help, bool&
   return changed;
 }
 
-bool Controls::button(const char* key, const char* label, const char* help, float width) {
+bool Controls::button(const char* key, const char* label, const char* help, float width, bool on) {
   if (!shows(key)) return false;
+  const ImGuiCol colour = on ? ImGuiCol_ButtonActive : ImGuiCol_Button;
+  ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(colour));
   const bool clicked = ImGui::Button(label, ImVec2(width, 0.0f));
+  ImGui::PopStyleColor();
   log_place(key);
   tell_help(help);
   return clicked;

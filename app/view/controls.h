@@ -79,8 +79,10 @@ class Controls {
   bool ends(const char* key, const char* help, std::array<double, 2>& ends);
   /// Check box. Returns true if it was clicked.
   bool toggle(const char* key, const char* name, const char* help, bool& on);
-  /// Button of `width` pixels; 0: as wide as its label. Returns true if it was pressed.
-  bool button(const char* key, const char* label, const char* help, float width = 0.0f);
+  /// Button of `width` pixels; 0: as wide as its label. It is marked while it is `on`. Returns true
+  /// if it was pressed.
+  bool button(const char* key, const char* label, const char* help, float width = 0.0f,
+              bool on = false);
 
   /// Clickable area of full width and `height` pixels; the caller draws its content. Returns true
   /// if it was clicked.

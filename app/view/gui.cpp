@@ -294,9 +294,16 @@ void Gui::viewport() {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.MouseWheel != 0.0f || ImGui::IsMouseDown(0) || panels_.gallery) panels_.hint = false;
   message_.draw(session_, area_);
-  if (!message_.shown() && panels_.hint && !panels_.help && !panels_.lecture && !panels_.narrow &&
-      !controls_.chooses())
-    hint_line(session_.scene().dimension(), area_);
+  const bool quiet = message_.shown() || panels_.help || panels_.lecture || panels_.narrow ||
+                     controls_.chooses() || !session_.view().captions.empty();
+  const char* hint = mouse_tools_.hint();
+  if (!quiet && hint) {
+    hint_line(hint, area_);
+  } else if (!quiet && panels_.hint) {
+    hint_line(std::string(frame.snapshot.box.size() == 2 ? "drag a slider" : "drag to turn") +
+                  "  ·  scroll to zoom  ·  G for the gallery",
+              area_);
+  }
   log_.widget("viewport", area_.low.x, area_.low.y, area_.high.x - area_.low.x,
               area_.high.y - area_.low.y);
 }
@@ -310,13 +317,16 @@ void Gui::use_viewport() {
                     mouse.y < area_.high.y && !ImGui::GetIO().WantCaptureMouse;
   const WindowMap map = viewport_.map(area_.low, scale_);
   if (log_.on()) log_handles(map);
-  if (const auto resized = wall_grip_.use(map, frame, over && !(panels_.lecture && tools_.pen))) {
+  mouse_tools_.use(session_, map, over);
+  const bool free = !mouse_tools_.active() && !(panels_.lecture && tools_.pen);
+  if (const auto resized = wall_grip_.use(map, frame, over && free)) {
     controls_.set({{"box.size", value_text(session_.scene().box)}},
                   {{"box.size", value_text(resized->box)}}, resized->shift);
   }
   View view = session_.view();
   const bool draws = use_pen(over);
-  const bool turned = viewport_.use_mouse(frame, view, map, over && !draws && !wall_grip_.active());
+  const bool turned = viewport_.use_mouse(frame, view, map, over && !draws && !wall_grip_.active(),
+                                          !mouse_tools_.active());
   controls_.show(view, turned);
   session_.pick(viewport_.picked());
 
@@ -326,6 +336,7 @@ void Gui::use_viewport() {
   list.PushClipRect(area_.low, area_.high);
   wall_grip_.mark(list, now, frame);
   viewport_.mark(list, frame, now);
+  mouse_tools_.mark(list, frame, now);
   paint_ink(list, over);
   list.PopClipRect();
   if (const auto place = viewport_.picked_place(frame, now)) {

@@ -14,6 +14,7 @@
 #include "app/view/host.h"
 #include "app/view/lecture.h"
 #include "app/view/messages.h"
+#include "app/view/mouse_tools.h"
 #include "app/view/panel_visibility.h"
 #include "app/view/playlist.h"
 #include "app/view/script_log.h"
@@ -84,6 +85,9 @@ class Gui {
   void stopwatch_button();
   void press_stopwatch();
   void toggle_pen();
+  void lift_pen();
+  void toggle_tool(Tool tool);
+  bool bar_has_tools() const;
   void lecture_settings();
   bool choose_sliders(Lecture& lecture);
   bool choose_lecture_plot(Lecture& lecture);
@@ -132,6 +136,7 @@ class Gui {
   Controls controls_;
   Viewport viewport_;
   WallGrip wall_grip_;
+  MouseTools mouse_tools_;
   Gallery gallery_;
   History history_;
   Timeline timeline_;

@@ -36,6 +36,7 @@ void Gui::lecture(bool on) {
 // All controls of the panels, one below the other.
 void Gui::all_controls() {
   gas_panel(session_, controls_);
+  if (mouse_tools_.panel(session_.scene(), controls_)) lift_pen();
   box_panel(session_, controls_);
   view_panel(session_, controls_);
   accuracy_panel(session_, controls_);
@@ -210,16 +211,6 @@ static float button_width(const char* label) {
       ImGui::GetFrameHeight());
 }
 
-// A button that is marked while it is on.
-static bool marked_button(Controls& controls, const char* key, const char* label, const char* help,
-                          bool on) {
-  const ImGuiCol colour = on ? ImGuiCol_ButtonActive : ImGuiCol_Button;
-  ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(colour));
-  const bool pressed = controls.button(key, label, help, button_width(label));
-  ImGui::PopStyleColor();
-  return pressed;
-}
-
 // Puts the next widget into the same line if there is room, else into a new line.
 static void place_next(float width) {
   ImGui::SameLine();
@@ -239,9 +230,9 @@ float Gui::lecture_bar() {
   ImGui::Begin("lecture_bar", nullptr, kFixedPanel | ImGuiWindowFlags_NoScrollbar);
   const auto button = [&](const char* key, const char* label, const char* help, bool on) {
     place_next(button_width(label));
-    return marked_button(controls_, key, label, help, on);
+    return controls_.button(key, label, help, button_width(label), on);
   };
-  if (marked_button(controls_, "gallery", "≡", "The gallery (G)", panels_.gallery)) {
+  if (controls_.button("gallery", "≡", "The gallery (G)", button_width("≡"), panels_.gallery)) {
     panels_.toggle_gallery();
   }
   if (button("previous_scene", "←", "Previous scene ( [ )", false)) step_scene(-1);
@@ -261,6 +252,12 @@ float Gui::lecture_bar() {
   if (button("lecture.timeline", "Timeline", "The time of the run", tools_.timeline)) {
     tools_.timeline = !tools_.timeline;
   }
+  for (const ToolText& tool : kTools) {
+    if (!bar_has_tools()) break;
+    if (button(tool.key, tool.name, tool.help, mouse_tools_.tool() == tool.tool)) {
+      toggle_tool(tool.tool);
+    }
+  }
   if (button("lecture.pen", "Pen", "The mouse draws lines that fade out (D)", tools_.pen)) {
     toggle_pen();
   }
@@ -279,6 +276,12 @@ float Gui::lecture_bar() {
   return height;
 }
 
+// Whether the bar has room for the mouse tools in its only line. Else they are in the settings.
+bool Gui::bar_has_tools() const {
+  constexpr float kWidth = 48.0f;  // of the bar with them, in text sizes
+  return ImGui::GetIO().DisplaySize.x > kWidth * ImGui::GetFontSize();
+}
+
 // The stopwatch with its times. The room for the times does not depend on their digits.
 void Gui::stopwatch_button() {
   const Frame& frame = session_.frame();
@@ -292,14 +295,11 @@ void Gui::stopwatch_button() {
   const float width =
       std::max(zero ? 0.0f : button_width("000.0 s   t = 000.00"), button_width(label.c_str()));
   place_next(width);
-  const ImGuiCol colour = tools_.stopwatch.runs() ? ImGuiCol_ButtonActive : ImGuiCol_Button;
-  ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(colour));
   if (controls_.button("lecture.stopwatch", label.c_str(),
-                       "Stopwatch of real time and simulation time: start, stop, zero (W)",
-                       width)) {
+                       "Stopwatch of real time and simulation time: start, stop, zero (W)", width,
+                       tools_.stopwatch.runs())) {
     press_stopwatch();
   }
-  ImGui::PopStyleColor();
 }
 
 void Gui::press_stopwatch() {
@@ -316,6 +316,17 @@ void Gui::press_stopwatch() {
 void Gui::toggle_pen() {
   tools_.pen = !tools_.pen;
   tools_.lines.lift();
+  if (tools_.pen) mouse_tools_.leave();
+}
+
+void Gui::lift_pen() {
+  tools_.pen = false;
+  tools_.lines.lift();
+}
+
+void Gui::toggle_tool(Tool tool) {
+  mouse_tools_.toggle(tool);
+  if (mouse_tools_.tool()) lift_pen();
 }
 
 // The settings of lecture mode, above the right end of the bar.
@@ -337,6 +348,11 @@ void Gui::lecture_settings() {
   const bool sliders = choose_sliders(view.lecture);
   const bool plot = choose_lecture_plot(view.lecture);
   controls_.show(view, sliders || plot);
+  if (bar_has_tools()) {
+    mouse_tools_.radius_slider(session_.scene(), controls_);
+  } else if (mouse_tools_.panel(session_.scene(), controls_)) {
+    lift_pen();
+  }
   controls_.toggle("lecture.captions", "Caption", "The caption of the scene", tools_.captions);
   if (choose(controls_, "lecture.theme", "Theme", "Colours in lecture mode", kThemes, tools_.theme,
              Theme::Projector)) {

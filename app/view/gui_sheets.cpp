@@ -46,14 +46,11 @@ float Gui::sheet_bar() {
   const float around = (ImGui::GetContentRegionAvail().x - text - (kCount - 1.0f) * edge) / kCount;
   for (const auto& [sheet, key, title] : kSheets) {
     const bool open = panels_.sheet == sheet;
-    const ImGuiCol colour = open ? ImGuiCol_ButtonActive : ImGuiCol_Button;
-    ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(colour));
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, ImGui::GetStyle().FramePadding.y));
-    if (controls_.button(key, title, "", ImGui::CalcTextSize(title).x + around)) {
+    if (controls_.button(key, title, "", ImGui::CalcTextSize(title).x + around, open)) {
       panels_.toggle(sheet);
     }
     ImGui::PopStyleVar();
-    ImGui::PopStyleColor();
     ImGui::SameLine();
   }
   ImGui::End();
@@ -90,6 +87,7 @@ void Gui::sheet() {
       break;
     case Sheet::Gas:
       gas_panel(session_, controls_);
+      mouse_tools_.panel(session_.scene(), controls_);
       box_panel(session_, controls_);
       break;
     case Sheet::View:

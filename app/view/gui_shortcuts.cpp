@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/view/direction.h"
 #include "app/view/gui.h"
@@ -146,6 +147,10 @@ void Gui::use_signs() {
     if (sign == '-') session_.set_speed(speed / std::sqrt(2.0));
     if (sign == '[') step_scene(-1);
     if (sign == ']') step_scene(1);
+    const auto tool = static_cast<std::size_t>(sign) - '1';
+    if (tool < kTools.size() && !panels_.gallery && !controls_.chooses()) {
+      toggle_tool(kTools[tool].tool);
+    }
   }
 }
 
@@ -154,11 +159,11 @@ void Gui::close_something() {
   if (session_.frame().opening && session_.frame().run > 0) return session_.cancel_open();
   // Dear ImGui ends the typing of a number.
   if (ImGui::GetIO().WantTextInput && !panels_.gallery) return;
-  for (bool* open : {&panels_.gallery, &panels_.help, &tools_.settings, &panels_.plots}) {
-    if (!*open) continue;
-    *open = false;
-    return;
+  for (bool* open : {&panels_.gallery, &panels_.help, &tools_.settings}) {
+    if (std::exchange(*open, false)) return;
   }
+  if (mouse_tools_.tool()) return mouse_tools_.leave();
+  if (std::exchange(panels_.plots, false)) return;
   if (panels_.narrow && panels_.sheet != Sheet::None) return panels_.toggle(panels_.sheet);
   if (panels_.lecture) return lecture(false);
   viewport_.let_go();

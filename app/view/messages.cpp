@@ -28,12 +28,11 @@ static void end_note() {
   ImGui::PopStyleColor();
 }
 
-void hint_line(int dimension, const Area& area) {
+void hint_line(const std::string& text, const Area& area) {
   const float unit = ImGui::GetFontSize();
   begin_note("hint", ImVec2(0.5f * (area.low.x + area.high.x), area.high.y - 3.6f * unit),
              ImVec2(0.5f, 1.0f));
-  ImGui::TextDisabled("%s  ·  scroll to zoom  ·  G for the gallery",
-                      dimension == 2 ? "drag a slider" : "drag to turn");
+  ImGui::TextDisabled("%s", text.c_str());
   end_note();
 }
 
@@ -137,14 +136,14 @@ struct KeyLine {
   bool spheres_only = false;
 };
 
-constexpr std::array<KeyLine, 29> kKeys = {{
+constexpr std::array<KeyLine, 30> kKeys = {{
     {"Space", "play or pause"},
     {"B", "play backwards, or forwards again"},
     {".  ,", "next frame, previous frame"},
     {"Shift + .   Shift + ,", "next, previous collision, with the pair marked"},
     {"←  →   Home   End", "back, forth by a second of playing; start, latest time"},
     {"Shift + drag", "on the timeline: repeat this stretch; a click ends that"},
-    {"Drag a mark", "on the timeline: move a change of laws to another time"},
+    {"Drag a mark", "on the timeline: move a change to another time"},
     {"R   Shift + R", "restart; with a new seed"},
     {"+  −", "faster, slower"},
     {"G", "gallery; / searches it"},
@@ -159,7 +158,8 @@ constexpr std::array<KeyLine, 29> kKeys = {{
     {"L", "lecture: large type, three sliders and a plot"},
     {"D  K  W", "lecture: pen, pointer with a trail, stopwatch"},
     {"F11", "full screen"},
-    {"Esc", "close the open panel, or deselect the particle"},
+    {"1  2  3  4", "heat, cool, kick, throw a particle with the mouse"},
+    {"Esc", "close the open panel, end a tool, or deselect the particle"},
     {"Drag", "turn the view", true},
     {"X  Y  Z  I", "view along an axis, isometric view", true},
     {"Right or Shift + drag", "move the view"},

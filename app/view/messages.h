@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <cstdint>
+#include <string>
 
 #include "app/view/controls.h"
 #include "app/view/session.h"
@@ -14,8 +15,8 @@ struct Area {
   ImVec2 low, high;  ///< upper left and lower right corner
 };
 
-/// Draws one line with hints at the lower edge of the area, for a scene of this dimension.
-void hint_line(int dimension, const Area& area);
+/// Draws a line with hints at the lower edge of the area.
+void hint_line(const std::string& text, const Area& area);
 /// Draws the progress of the scene that is being opened, in the middle of the area, with a button
 /// that cancels it if there is a former gas.
 void opening_note(Session& session, Controls& controls, const Area& area);

@@ -61,7 +61,10 @@ bool Session::update() {
     log_.event("handled", {{"command", handled_}});
   }
   // The panels show the requested settings until the engine has answered all commands.
-  if (now.handled == sent_ && now.run > 0) answered(now);
+  if (now.handled == sent_ && now.run > 0) {
+    answered(now);
+    if (const auto act = std::exchange(postponed_, nullptr)) (this->*act)();
+  }
   constexpr std::chrono::milliseconds kStatus{100};
   if (log_.on() && now.scene && (Clock::now() - logged_ > kStatus || now.state_hash)) {
     logged_ = Clock::now();
@@ -286,20 +289,83 @@ void Session::set(const std::vector<Override>& settings, const VecX& shift) {
   log_.event("set", {{"keys", keys}, {"command", sent_ + 1}});
   const auto live = [](const Override& setting) { return may_change_live(setting.key); };
   if (std::ranges::all_of(settings, live)) {
-    if (frame().snapshot.time < frame().head && !forked_) {
-      ++forks_;
-      forked_ = true;
-    }
+    note_fork();
     send(command::SetLaws{settings});
   } else {
     refit(shift);
   }
 }
 
+// A change in the past begins another future.
+void Session::note_fork() {
+  if (frame().snapshot.time >= frame().head || forked_) return;
+  ++forks_;
+  forked_ = true;
+}
+
+static nlohmann::json keys_of(const Nudge& nudge) {
+  const auto numbers = [](const VecX& vector) { return std::vector(vector.begin(), vector.end()); };
+  nlohmann::json keys;
+  if (nudge.particle) keys["particle"] = *nudge.particle;
+  if (nudge.centre) keys["centre"] = numbers(*nudge.centre);
+  if (nudge.radius) keys["radius"] = *nudge.radius;
+  if (nudge.scale) keys["scale"] = *nudge.scale;
+  if (nudge.add) keys["add"] = numbers(*nudge.add);
+  if (nudge.set) keys["set"] = numbers(*nudge.set);
+  return keys;
+}
+
+void Session::nudge(const Nudge& nudge) {
+  try {
+    check_nudge(nudge, scene_);
+  } catch (const UserError& error) {
+    tell(error.problem() + "; " + error.advice());
+    return;
+  }
+  unsaved_ = true;
+  note_fork();
+  log_.event("nudge", {{"nudge", keys_of(nudge)}, {"command", sent_ + 1}});
+  send(command::Nudge{nudge});
+}
+
 void Session::remember(Edit edit) {
-  if (!edit.after.empty() && std::exchange(forked_, false)) edit.fork = forks_;
+  const bool changes = !edit.after.empty() || !edit.nudges.empty();
+  if (changes && std::exchange(forked_, false)) edit.fork = forks_;
   done_.push_back(std::move(edit));
   undone_.clear();
+}
+
+// The last changes of a run that have these nudges, and are removed from it.
+static std::vector<Change> take_nudges(std::vector<Change>& changes,
+                                       const std::vector<Nudge>& nudges) {
+  std::vector<Change> taken;
+  for (auto nudge = nudges.rbegin(); nudge != nudges.rend(); ++nudge) {
+    const auto is_it = [&](const Change& change) {
+      return change.nudge == *nudge && change.set.empty();
+    };
+    const auto after = std::find_if(changes.rbegin(), changes.rend(), is_it).base();
+    if (after == changes.begin()) continue;
+    taken.insert(taken.begin(), *(after - 1));
+    changes.erase(after - 1);
+  }
+  return taken;
+}
+
+// Removes the nudges of an entry from the run, or puts them back at their times. The run continues
+// from the first of them.
+void Session::exchange_nudges(Edit& edit, bool again) {
+  std::vector<Change> changes = frame().scene->changes;
+  if (!again) edit.undone_nudges = take_nudges(changes, edit.nudges);
+  if (edit.undone_nudges.empty()) return tell("The run has none of these nudges any more");
+  if (again) changes.insert(changes.end(), edit.undone_nudges.begin(), edit.undone_nudges.end());
+  const double from = std::ranges::min(edit.undone_nudges, {}, &Change::time).time;
+  log_.event("replace_changes",
+             {{"changes", changes.size()}, {"from", from}, {"command", sent_ + 1}});
+  const bool plays = plays_;
+  send(command::ReplaceChanges{std::move(changes), from});
+  if (plays) play(true);
+  unsaved_ = true;
+  edit.fork = ++forks_;
 }
 
 void Session::apply(Edit& edit, bool again) {
@@ -312,12 +378,23 @@ void Session::apply(Edit& edit, bool again) {
   } else if (!edit.after.empty()) {
     set(again ? edit.after : edit.before, again ? edit.shift : -edit.shift);
     if (std::exchange(forked_, false)) edit.fork = forks_;
+  } else if (!edit.nudges.empty()) {
+    exchange_nudges(edit, again);
   }
   if (edit.views) set_view((*edit.views)[again ? 1 : 0]);
 }
 
+// Whether the last entry has nudges that no frame has yet.
+bool Session::awaits_nudges(const std::vector<Edit>& edits) const {
+  return !edits.back().nudges.empty() && frame().handled != sent_;
+}
+
 void Session::undo() {
   if (done_.empty()) return;
+  if (awaits_nudges(done_)) {
+    postponed_ = &Session::undo;
+    return;
+  }
   log_.event("undo", nlohmann::json::object());
   apply(done_.back(), false);
   undone_.push_back(std::move(done_.back()));
@@ -326,6 +403,10 @@ void Session::undo() {
 
 void Session::redo() {
   if (undone_.empty()) return;
+  if (awaits_nudges(undone_)) {
+    postponed_ = &Session::redo;
+    return;
+  }
   log_.event("redo", nlohmann::json::object());
   apply(undone_.back(), true);
   done_.push_back(std::move(undone_.back()));

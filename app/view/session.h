@@ -28,6 +28,8 @@ struct Edit {
   std::vector<OpenedScene> scenes = {};
   /// Number of the change in the past whose two futures the entry exchanges; 0: none.
   std::uint64_t fork = 0;
+  std::vector<Nudge> nudges = {};          ///< that the entry made; undo removes them from the run
+  std::vector<Change> undone_nudges = {};  ///< with their times
 };
 
 /// The simulation in the window: its scene, its view and the undo history. It sends commands to the
@@ -100,6 +102,8 @@ class Session {
   /// particles, moved by `shift`, without those that no longer fit. An invalid setting becomes a
   /// message. If no particle spins afterwards, the view shows no spins.
   void set(const std::vector<Override>& settings, const VecX& shift = {});
+  /// Nudges particles of the running or halted gas. An impossible nudge becomes a message.
+  void nudge(const Nudge& nudge);
   /// Adds an entry to the undo history, and clears the redo history.
   void remember(Edit edit);
   /// Reverts the last entry of the undo history.
@@ -141,6 +145,9 @@ class Session {
   void answered(const Frame& now);
   void send(Command command);
   void apply(Edit& edit, bool again);
+  void note_fork();
+  bool awaits_nudges(const std::vector<Edit>& edits) const;
+  void exchange_nudges(Edit& edit, bool again);
   void refit(const VecX& shift);
   void send_exchange();
   double present() const;
@@ -167,6 +174,7 @@ class Session {
   std::uint64_t messages_ = 0;    // Frame::messages of the last frame
   std::vector<Edit> done_;
   std::vector<Edit> undone_;
+  void (Session::*postponed_)() = nullptr;  // undo() or redo() of nudges not yet in a frame
   std::uint64_t forks_ = 0;  // changes in the past; the last one has the present two futures
   bool unsaved_ = false;     // changes by hand that no file has
   bool forked_ = false;      // since the last entry of the undo history

@@ -96,18 +96,24 @@ std::string text_of(const Change& change) {
   return text;
 }
 
-// The marks under the mouse in words; empty: none.
+// The marks under the mouse in words, the first of many; empty: none.
 std::string marks_near(const Frame& frame, const TimeScale& scale, float place, float reach) {
-  std::string text;
+  constexpr std::size_t kMost = 3;
+  std::vector<std::string> marks;
   const auto add = [&](double time, const std::string& mark) {
     if (time > frame.head || std::fabs(scale.place(time) - place) >= reach) return;
-    text += (text.empty() ? "" : "\n\n") + mark;
+    marks.push_back(mark);
   };
   for (const Change& change : frame.scene->changes) add(change.time, text_of(change));
   for (const double stop : frame.stops) {
     add(stop, fmt::format("t = {:.6g}\nThe run stopped by itself", stop));
   }
-  return text;
+  if (marks.size() > kMost) {
+    const std::string rest = fmt::format("and {} more", marks.size() - kMost + 1);
+    marks.resize(kMost - 1);
+    marks.push_back(rest);
+  }
+  return fmt::format("{}", fmt::join(marks, "\n\n"));
 }
 
 void draw_mark(ImDrawList& list, const TimeScale& scale, const Change& change, float y,

@@ -70,21 +70,21 @@ std::optional<ImVec2> Viewport::picked_place(const Frame& frame, const WindowMap
   return map.place(frame.snapshot.positions.col(static_cast<Eigen::Index>(*picked_)));
 }
 
-bool Viewport::use_mouse(const Frame& frame, View& view, const WindowMap& map, bool over) {
+bool Viewport::use_mouse(const Frame& frame, View& view, const WindowMap& map, bool over,
+                         bool presses) {
   if (over && ImGui::GetIO().MouseWheel != 0.0f) zoom(frame, map);
   if (over && (ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2))) pan(map);
-  return drag_or_click(frame, view, map, over);
+  return drag_or_click(frame, view, map, over && presses);
 }
 
 // The point under the mouse, at the depth of the camera's centre, stays there.
 void Viewport::zoom(const Frame& frame, const WindowMap& map) {
-  const Eye& eye = map.eye();
-  const Vec2 off = (map.pixel(ImGui::GetIO().MousePos) - eye.origin()) / eye.scale();
-  const Vec3 point = eye.world({off.x(), off.y(), 0.0});
+  const Vec3& centre = map.eye().centre();
+  const Vec3 point = map.world(ImGui::GetIO().MousePos, centre);
   const double factor = std::pow(0.85, ImGui::GetIO().MouseWheel);
   const double wide = frame.snapshot.box.maxCoeff() * 10.0;
   const double width = std::clamp(camera_.width * factor, 2.0, std::max(20.0, wide));
-  aim(point + (eye.centre() - point) * (width / camera_.width));
+  aim(point + (centre - point) * (width / camera_.width));
   camera_.width = width;
   fits_ = false;
   stale_ = true;
@@ -129,16 +129,10 @@ bool Viewport::drag_or_click(const Frame& frame, View& view, const WindowMap& ma
 }
 
 void Viewport::mark(ImDrawList& list, const Frame& frame, const WindowMap& map) const {
-  const Eye& eye = map.eye();
   const Snapshot& gas = frame.snapshot;
-  const double radius = 0.5 * gas.diameter;
   const auto ring = [&](const VecX& position, ImU32 ink) {
-    const Vec3 seen = eye.seen(in_space(position));
-    if (eye.w(seen + Vec3(0.0, 0.0, radius)) < Eye::kNearest) return;
-    const auto [low, high] = eye.around(seen, radius);
-    const float size =
-        0.5f * static_cast<float>((high - low).maxCoeff() / eye.scale()) * map.units();
-    list.AddCircle(map.of_pixel(0.5 * (low + high)), size + 2.0f, ink, 0, 2.5f);
+    const auto outline = map.outline(position, 0.5 * gas.diameter);
+    if (outline) list.AddCircle(outline->centre, outline->radius + 2.0f, ink, 0, 2.5f);
   };
   if (picked_ && *picked_ < gas.count()) {
     ring(gas.positions.col(static_cast<Eigen::Index>(*picked_)), packed(accent_colour()));

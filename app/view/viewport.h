@@ -34,8 +34,9 @@ class Viewport {
     return {camera_, canvas_->size(), corner, scale};
   }
   /// Pans, zooms, turns spheres and picks particles with the mouse. `over`: the mouse is over the
-  /// viewport. Returns true if the angles of the view changed.
-  bool use_mouse(const Frame& frame, View& view, const WindowMap& map, bool over);
+  /// viewport. `presses`: presses of the left button are for the viewport. Returns true if the
+  /// angles of the view changed.
+  bool use_mouse(const Frame& frame, View& view, const WindowMap& map, bool over, bool presses);
   /// Marks the picked particle and the pair of the last collision step.
   void mark(ImDrawList& list, const Frame& frame, const WindowMap& map) const;
 

@@ -48,6 +48,12 @@ struct MoveChange {
   std::size_t number = 0;  ///< index into Scene::changes
   double time = 0.0;       ///< simulation time > 0; a ramp keeps its duration
 };
+/// Gives the run other changes from a simulation time > 0 on, see WatchedRun::replace_changes(),
+/// and halts.
+struct ReplaceChanges {
+  std::vector<Change> changes;
+  double from = 0.0;
+};
 /// Exchanges the future after the last change in the past with the one before that change, and
 /// halts.
 struct ExchangeFutures {};
@@ -59,6 +65,10 @@ struct SetSpeed {
 /// begins another future, see WatchedRun::change.
 struct SetLaws {
   std::vector<Override> laws;
+};
+/// Nudges particles, like a change of laws. Each nudge counts, also of many at once.
+struct Nudge {
+  clatter::Nudge nudge;
 };
 /// Shows the averages, flights and spins of this view from now on.
 struct Show {
@@ -92,7 +102,8 @@ struct CancelOpen {};
 using Command =
     std::variant<command::Play, command::PlayBackwards, command::Step, command::StepCollision,
                  command::Jump, command::StepBack, command::ExchangeFutures, command::MoveChange,
-                 command::Loop, command::SetSpeed, command::SetLaws, command::Show,
-                 command::ShowProfile, command::Pick, command::Open, command::CancelOpen>;
+                 command::ReplaceChanges, command::Loop, command::SetSpeed, command::SetLaws,
+                 command::Nudge, command::Show, command::ShowProfile, command::Pick, command::Open,
+                 command::CancelOpen>;
 
 }  // namespace clatter

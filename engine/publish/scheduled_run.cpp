@@ -84,20 +84,40 @@ static double round_time(double time, double span) {
 }
 
 template <int D>
-void ScheduledRun<D>::change(const std::vector<Override>& laws, double delay) {
+void ScheduledRun<D>::halt_within(double delay) {
   if (delay > 0.0) {
     halt_at(round_time(simulation_->time(), delay));
   } else {
     settle();
   }
+}
+
+template <int D>
+void ScheduledRun<D>::change(const std::vector<Override>& laws, double delay) {
+  halt_within(delay);
   change_here(laws);
 }
 
 template <int D>
 void ScheduledRun<D>::change_here(const std::vector<Override>& laws) {
+  make({.time = simulation_->time(), .set = laws});
+}
+
+template <int D>
+void ScheduledRun<D>::nudge(const Nudge& nudge, double delay) {
+  check_nudge(nudge, laws());
+  halt_within(delay);
+  make({.time = simulation_->time(), .nudge = nudge});
+}
+
+// Adds a change at the present time to those of the scene. A run of the scene up to this time also
+// ends by run_until(), which rounds the time on the base that a nudge has moved.
+template <int D>
+void ScheduledRun<D>::make(const Change& change) {
   Schedule changed = schedule_;
-  changed.add({.time = simulation_->time(), .set = laws});
+  changed.add(change);
   advance(std::move(changed));
+  halt_at(change.time);
 }
 
 // Makes the next change of `schedule`, which then replaces that of the run. A nudge is an event of

@@ -67,6 +67,9 @@ class ScheduledRun {
   /// The same where the run is, as by a [[change]] of the scene. To be called after run_until() has
   /// returned true or after settle().
   void change_here(const std::vector<Override>& laws);
+  /// Nudges particles as change() changes laws, and adds the nudge to the scene's changes. Throws
+  /// UserError or PhysicalStop if the nudge is impossible; nothing then changes.
+  void nudge(const Nudge& nudge, double delay = 0.0);
 
   /// Adds to later snapshots the averages, flights and angles that the view needs. Averages
   /// restart at each change of laws, and continue during a ramp. `exposure` >= 0 is the exposure
@@ -98,6 +101,8 @@ class ScheduledRun {
 
  private:
   void halt_at(double time);
+  void halt_within(double delay);
+  void make(const Change& change);
   /// Averages of the view that continue or restart with another simulation.
   enum class Averages { Continue, Restart };
 

@@ -1,6 +1,7 @@
 #include "engine/publish/watched_run.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -18,6 +19,10 @@ namespace clatter {
 
 namespace {
 
+UserError no_change() {
+  return {{}, "there is no such change after time 0", "choose another change"};
+}
+
 template <int D>
 class RunOf : public WatchedRun {
  public:
@@ -31,7 +36,11 @@ class RunOf : public WatchedRun {
   bool prepare(const StopRequest& pause) override { return run_.prepare(pause); }
   bool run_until(double time, std::uint64_t collisions, std::uint64_t steps) override;
   void settle() override;
-  void change(const std::vector<Override>& laws, double delay) override;
+  void change(const std::vector<Override>& laws, double delay) override {
+    branch([&] { run_.change(laws, delay); });
+  }
+  void nudge(const Nudge& nudge, double delay) override;
+  double replace_changes(std::vector<Change> changes, double from) override;
   double head() const override { return std::max(head_, time()); }
   double move_change(std::size_t number, double time) override;
   double exchange_futures() override;
@@ -88,6 +97,7 @@ class RunOf : public WatchedRun {
   void return_to(const SavedState<D>& saved, const std::vector<Change>& changes);
   Future end_future(double from);
   Future fork();
+  void branch(const std::function<void()>& change);
   std::optional<ParticleCollision> next_collision(bool halted);
   std::optional<ContactTimeError> contact_time_error() const;
 
@@ -314,14 +324,14 @@ typename RunOf<D>::Future RunOf<D>::end_future(double from) {
   return {from, std::exchange(head_, from), run_.scene().changes, record_.cut(from)};
 }
 
-// An impossible change in the past restores the future.
+// Makes a change at the present time. An impossible change in the past restores the future.
 template <int D>
-void RunOf<D>::change(const std::vector<Override>& laws, double delay) {
+void RunOf<D>::branch(const std::function<void()>& change) {
   const bool forks = time() < head_;
   std::optional<Future> before;
   if (forks) before = std::exchange(other_, fork());
   try {
-    run_.change(laws, delay);
+    change();
   } catch (...) {
     if (forks) {
       run_.run_until(exchange_futures());
@@ -330,7 +340,18 @@ void RunOf<D>::change(const std::vector<Override>& laws, double delay) {
     throw;
   }
   settled_ = true;
+  scene_.reset();
   record();
+}
+
+// The record keeps no state before a change at time 0, and such a nudge could not be removed.
+template <int D>
+void RunOf<D>::nudge(const Nudge& nudge, double delay) {
+  if (time() == 0.0) {
+    delay *= 0.5;
+    run_until(delay, kNoLimit, kNoLimit);
+  }
+  branch([&] { run_.nudge(nudge, delay); });
 }
 
 // Begins another future without the user's later changes, and returns the old one.
@@ -350,14 +371,19 @@ typename RunOf<D>::Future RunOf<D>::fork() {
 template <int D>
 double RunOf<D>::move_change(std::size_t number, double time) {
   std::vector<Change> changes = run_.scene().changes;
-  const double from =
-      number < changes.size() ? std::min({changes[number].time, time, head()}) : 0.0;
-  if (!(from > 0.0)) {
-    throw UserError({}, "there is no such change after time 0", "move another change");
-  }
+  if (number >= changes.size()) throw no_change();
+  Change& moved = changes[number];
+  const double from = std::min(moved.time, time);
+  moved.until += time - moved.time;
+  moved.time = time;
+  return replace_changes(std::move(changes), from);
+}
+
+template <int D>
+double RunOf<D>::replace_changes(std::vector<Change> changes, double from) {
+  from = std::min(from, head());
+  if (!(from > 0.0)) throw no_change();
   save_head();
-  changes[number].until += time - changes[number].time;
-  changes[number].time = time;
   other_ = end_future(from);
   return_to(record_.before(from), changes);
   head_ = from;

@@ -40,15 +40,21 @@ class WatchedRun {
   /// present time are removed, those of the scene remain. The old future is kept for
   /// exchange_futures(), as long as there is memory for it.
   virtual void change(const std::vector<Override>& laws, double delay) = 0;
+  /// As ScheduledRun::nudge, and in the past as change(). The nudge is after time 0 if there is a
+  /// delay.
+  virtual void nudge(const Nudge& nudge, double delay) = 0;
+  /// Replaces all changes of the run. `from` > 0 is the simulation time of the first difference.
+  /// Another future begins there, and the old one is kept, as by change(). Goes to a state from
+  /// which run_until() soon reaches the returned time, at which this future begins. Throws
+  /// UserError if the run has no such time.
+  virtual double replace_changes(std::vector<Change> changes, double from) = 0;
   /// Replaces the future after the last change in the past by the one before that change, and keeps
   /// the present one. Goes to a state from which run_until() soon reaches the returned time: the
   /// present time, or that of the change if it is earlier. Throws UserError if there is no other
   /// future.
   virtual double exchange_futures() = 0;
-  /// Moves a change of laws to another simulation time > 0. Another future begins at the earlier of
-  /// its two times, and the old one is kept, as by change(). Goes to a state from which run_until()
-  /// soon reaches the returned time, at which this future begins. Throws UserError if there is no
-  /// such change after time 0.
+  /// Moves a change of laws to another simulation time > 0, as by replace_changes(). Throws
+  /// UserError if there is no such change after time 0.
   virtual double move_change(std::size_t number, double time) = 0;
   /// Latest simulation time that the run has reached.
   virtual double head() const = 0;

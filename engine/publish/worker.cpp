@@ -133,6 +133,9 @@ class EngineWork {
 
   double time() { return watched_->time(); }
 
+  // In a tenth of a frame there is a time with few digits, for the scene file.
+  double delay() const { return 0.1 * pace_.speed() * frame_seconds_; }
+
   void tell(const std::string& message) {
     message_ = message;
     ++messages_;
@@ -192,6 +195,10 @@ class EngineWork {
     halt();
     if (watched_) run_to(watched_->move_change(asked.number, asked.time));
   }
+  void obey(const command::ReplaceChanges& asked) {
+    halt();
+    if (watched_) run_to(watched_->replace_changes(asked.changes, asked.from));
+  }
   void obey(const command::ExchangeFutures&) {
     halt();
     if (watched_) run_to(watched_->exchange_futures());
@@ -202,8 +209,10 @@ class EngineWork {
   }
   void obey(const command::SetSpeed& asked) { pace_.set_speed(asked.speed); }
   void obey(const command::SetLaws& asked) {
-    // In a tenth of a frame there is a time with few digits, for the scene file.
-    if (watched_) watched_->change(asked.laws, 0.1 * pace_.speed() * frame_seconds_);
+    if (watched_) watched_->change(asked.laws, delay());
+  }
+  void obey(const command::Nudge& asked) {
+    if (watched_) watched_->nudge(asked.nudge, delay());
   }
   void obey(const command::Show& asked) {
     if (watched_) watched_->show(asked.view);

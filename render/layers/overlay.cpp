@@ -294,7 +294,7 @@ void draw_captions(ImDrawList& list, const std::vector<Caption>& all, double tim
     double opacity;
   };
   const auto width = static_cast<float>(page.size.width - page.margins.left - page.margins.right);
-  const float gap = std::round(page.fonts.unit());
+  const float gap = std::round(1.5f * page.fonts.unit());
   std::vector<Shown> captions;
   float height = 0.0f;
   for (const Caption& caption : all) {
@@ -306,14 +306,18 @@ void draw_captions(ImDrawList& list, const std::vector<Caption>& all, double tim
     height += gap;
   }
   auto y = static_cast<float>(std::round(page.size.height - page.margins.bottom - height));
+  const float middle = static_cast<float>(page.margins.left) + 0.5f * width;
   for (const auto& [lines, opacity] : captions) {
+    float half = 0.0f, end = y;
+    for (const MarkedLine& line : lines) {
+      half = std::max(half, 0.5f * line.width);
+      end += line.height;
+    }
+    draw_plate(list, ImVec2(middle - half, y), ImVec2(middle + half, end), page, opacity);
     Ink ink = page.theme.ink();
     ink.colour.alpha = static_cast<std::uint8_t>(std::lround(255.0 * opacity));
     for (const MarkedLine& line : lines) {
-      const auto x =
-          std::round(static_cast<float>(page.margins.left) + 0.5f * (width - line.width));
-      draw_plate(list, ImVec2(x, y), ImVec2(x + line.width, y + line.height), page, opacity);
-      draw_marked(list, line, ImVec2(x, y), ink);
+      draw_marked(list, line, ImVec2(std::round(middle - 0.5f * line.width), y), ink);
       y += line.height;
     }
     y += gap;

@@ -37,6 +37,15 @@ Scene nudged() {
   return parse_scene(kDisks + kChanges, "s.toml");
 }
 
+// The hash at a time of a run of the scene that a frame would save.
+std::uint64_t hash_of_scene(const Frame& frame, double time) {
+  Scene scene = *frame.started;
+  scene.changes = frame.scene->changes;
+  ScheduledRun<2> alone(parse_scene(scene_to_toml(scene), "saved.toml"), kSeed);
+  alone.run_until(time);
+  return alone.simulation().state_hash();
+}
+
 // A gas whose particles fly freely until the nudge at t = 1.
 template <int D>
 State<D> velocities_after(const std::string& nudge, State<D>& before) {
@@ -107,6 +116,29 @@ TEST_CASE("Nudge: add and set give their velocities") {
     CHECK((added.velocities[i] - before.velocities[i] - Vec2(0.5, -2.0)).norm() < 1e-12);
     CHECK(set.velocities[i] == (i == 17 ? Vec2(3.0, 0.25) : before.velocities[i]));
   }
+}
+
+// Particles have mass 1.
+TEST_CASE("Nudge: add gives a region the momentum of its particles, and set that of the velocity") {
+  State<2> before;
+  const Vec2 centre(19.0, 4.0), speed(0.5, -2.0);
+  const State<2> added =
+      velocities_after<2>("{ centre = [19.0, 4.0], radius = 6.0, add = [0.5, -2.0] }", before);
+  const auto momentum = [](const State<2>& state) {
+    Vec2 sum = Vec2::Zero();
+    for (const Vec2& velocity : state.velocities) sum += velocity;
+    return sum;
+  };
+  const auto inside = std::ranges::count_if(
+      before.positions, [&](const Vec2& place) { return distance<2>(place, centre) <= 6.0; });
+  REQUIRE(inside > 1);
+  REQUIRE(inside < 30);
+  const Vec2 gained = momentum(added) - momentum(before);
+  CHECK((gained - static_cast<double>(inside) * speed).norm() < 1e-12);
+
+  const State<2> set =
+      velocities_after<2>("{ centre = [19.0, 4.0], radius = 6.0, set = [0.5, -2.0] }", before);
+  CHECK(std::ranges::count(set.velocities, speed) == inside);
 }
 
 TEST_CASE("Nudge: the ledger and all balances stay closed, and its energy has its own sum") {
@@ -193,7 +225,13 @@ TEST_CASE("Nudge: tiles change no bit") {
   ScheduledRun<2> one(scene, kSeed), two(scene, kSeed);
   two.simulation().use_threads(2, TileSizes{.particles = 100, .collisions = 1.0, .halo = 4.0});
   one.run_until(1.5);
+  two.run_until(0.4);
+  REQUIRE(two.simulation().foresight());
+  CHECK(two.simulation().tiles() > 1);
+  const std::uint64_t windows = two.simulation().foresight()->work().windows;
+  CHECK(windows > 0);
   two.run_until(1.5);
+  CHECK(two.simulation().foresight()->work().windows > windows);
   CHECK(one.simulation().state_hash() == two.simulation().state_hash());
 }
 
@@ -206,6 +244,114 @@ TEST_CASE("Nudge: a velocity beyond the largest stops the run, and the state rem
   CHECK_THROWS_AS(run.run_until(2.0), PhysicalStop);
   CHECK(run.simulation().counts().nudges < 8);
   CHECK(std::isfinite(run.simulation().kinetic_energy()));
+}
+
+// A gas without losses between driven walls stops at a million times its fastest speed.
+TEST_CASE("Nudge: a particle may be thrown faster than walls could drive it") {
+  const Scene scene = parse_scene(
+      "box.size = [12, 10]\nparticles.count = 20\n"
+      "walls.left = { kind = 'driven', drive_speed = 1.0 }\nwalls.right = { kind = 'static' }\n"
+      "[[change]]\ntime = 1.0\nnudge = { particle = 3, set = [-1e8, 0.0] }\n",
+      "");
+  ScheduledRun<2> run(scene, kSeed);
+  run.run_until(1.0);
+  ScheduledRun<2> resumed(scene, kSeed, run.simulation().save());
+  for (ScheduledRun<2>* thrown : {&run, &resumed}) {
+    const std::uint64_t before = thrown->simulation().counts().wall_collisions;
+    CHECK_NOTHROW(thrown->run_until(1.0 + 1e-6));
+    CHECK(thrown->simulation().counts().wall_collisions > before);
+  }
+}
+
+TEST_CASE("Nudge: by hand it is recorded at its time, and a run of its scene has the same bits") {
+  const Scene scene = parse_scene(kDisks, "");
+  for (const double at : {0.0, 1.7, 4.0}) {
+    CAPTURE(at);
+    const auto run = watched_run(scene, kSeed);
+    run->run_until(at, kNoLimit, kNoLimit);
+    const Nudge heat{.centre = Vec2(6.0, 5.0), .radius = 3.0, .scale = 1.5};
+    run->nudge(heat, 0.01);
+    run->nudge({.particle = 7, .add = Vec2(0.0, 2.0)}, 0.0);
+    Frame frame;
+    run->tell(frame, true);
+    REQUIRE(frame.scene->changes.size() == 2);
+    const auto& [first, second] = std::tie(frame.scene->changes[0], frame.scene->changes[1]);
+    CHECK(first.nudge == heat);
+    CHECK(first.time > 0.0);
+    CHECK(first.time >= at);
+    CHECK(first.time <= at + 0.01);
+    CHECK(second.time == doctest::Approx(first.time).epsilon(1e-14));
+    CHECK(hash_of_scene(frame, run->time()) == *frame.state_hash);
+    run->run_until(6.0, kNoLimit, kNoLimit);
+    run->tell(frame, true);
+    CHECK(frame.tally.nudges_in > 0.0);
+    CHECK(hash_of_scene(frame, 6.0) == *frame.state_hash);
+    // The record has the states at the nudges.
+    for (const double time : {5.0, at + 0.02, 0.5 * at}) {
+      run->go_back(time);
+      run->run_until(time, kNoLimit, kNoLimit);
+      run->tell(frame, true);
+      CHECK(hash_of_scene(frame, time) == *frame.state_hash);
+    }
+  }
+}
+
+TEST_CASE("Nudge: by hand an impossible one is refused, and the future stays") {
+  const auto run = watched_run(parse_scene(kDisks, ""), kSeed);
+  run->run_until(4.0, kNoLimit, kNoLimit);
+  run->go_back(2.0);
+  run->run_until(2.0, kNoLimit, kNoLimit);
+  CHECK_THROWS_AS(run->nudge({.particle = 40, .set = Vec2(1.0, 0.0)}, 0.0), UserError);
+  CHECK_THROWS_AS(run->nudge({.particle = 4, .set = Vec2(1e16, 0.0)}, 0.0), PhysicalStop);
+  Frame frame;
+  run->tell(frame, true);
+  CHECK(frame.head == doctest::Approx(4.0));
+  CHECK(frame.scene->changes.empty());
+  CHECK_FALSE(frame.other_future);
+}
+
+TEST_CASE("Nudge: removed from a run it leaves the bits of the others, and its future remains") {
+  const Scene scene = parse_scene(kDisks, "");
+  const auto run = watched_run(scene, kSeed);
+  const auto tell = [&] {
+    Frame frame;
+    run->tell(frame, true);
+    return frame;
+  };
+  const auto run_to = [&](double time) {
+    run->run_until(time, kNoLimit, kNoLimit);
+    return *tell().state_hash;
+  };
+  const auto fresh = [&](const std::vector<Change>& changes, double time) {
+    Scene with = scene;
+    with.changes = changes;
+    ScheduledRun<2> alone(with, kSeed);
+    alone.run_until(time);
+    return alone.simulation().state_hash();
+  };
+  // Three equal nudges, two of them at one time.
+  const Nudge heat{.centre = Vec2(6.0, 5.0), .radius = 3.0, .scale = 1.5};
+  run->run_until(1.0, kNoLimit, kNoLimit);
+  run->nudge(heat, 0.0);
+  run->run_until(2.0, kNoLimit, kNoLimit);
+  run->nudge(heat, 0.0);
+  run->nudge(heat, 0.0);
+  run->run_until(5.0, kNoLimit, kNoLimit);
+  const std::vector<Change> three = tell().scene->changes;
+  REQUIRE(three.size() == 3);
+  const std::vector<Change> two(three.begin(), three.end() - 1);
+  const double from = run->replace_changes(two, three.back().time);
+  CHECK(from == three.back().time);
+  run_to(from);
+  CHECK(run->head() == doctest::Approx(2.0));
+  CHECK(tell().scene->changes == two);
+  CHECK(run_to(6.0) == fresh(two, 6.0));
+  REQUIRE(tell().other_future);
+  run_to(run->exchange_futures());
+  CHECK(tell().scene->changes == three);
+  CHECK(run_to(6.0) == fresh(three, 6.0));
+  CHECK_THROWS_AS(run->replace_changes({}, 0.0), UserError);
+  CHECK(run_to(7.0) == fresh(three, 7.0));
 }
 
 TEST_CASE("Nudge: impossible nudges are refused with their place") {

@@ -212,6 +212,39 @@ TEST_CASE("Worker: if laws are set faster than they can change, the last ones co
   CHECK(frame.scene->changes.size() < 200);
 }
 
+TEST_CASE("Worker: each of many equal nudges counts, also of a gas that plays backwards") {
+  Worker worker(60.0);
+  worker.send(command::Open{scene_at_speed("vibrated", 4.0), 1, false});
+  const Nudge cool{.centre = Vec2(10.0, 12.0), .radius = 5.0, .scale = 0.9};
+  for (int i = 0; i < 5; ++i) worker.send(command::Nudge{cool});
+  const Frame five = wait_for_handled(worker, 6);
+  CHECK(five.message == "");
+  CHECK(five.scene->changes.size() == 5);
+  worker.send(command::Step{20.0});
+  wait_for(worker, [](const Frame& frame) { return frame.snapshot.time >= 20.0; });
+
+  worker.send(command::PlayBackwards{});
+  const double back =
+      wait_for(worker, [](const Frame& frame) { return frame.snapshot.time < 19.0; }).snapshot.time;
+  worker.send(command::Nudge{cool});
+  worker.send(command::Play{false});
+  const Frame halted = wait_for_handled(worker, 10);
+  REQUIRE(halted.scene->changes.size() == 6);
+  CHECK(halted.scene->changes.back().time <= back + 0.1);
+  CHECK(halted.other_future);
+  Scene scene = *halted.started;
+  scene.changes = halted.scene->changes;
+  ScheduledRun<2> alone(scene, 1);
+  alone.run_until(halted.snapshot.time);
+  CHECK(alone.simulation().state_hash() == *halted.state_hash);
+
+  scene.changes.pop_back();
+  worker.send(command::ReplaceChanges{scene.changes, halted.scene->changes.back().time});
+  const Frame undone = wait_for_handled(worker, 11);
+  CHECK(undone.scene->changes == scene.changes);
+  CHECK(undone.snapshot.time == doctest::Approx(halted.scene->changes.back().time));
+}
+
 TEST_CASE("Worker: profiles come when asked for, and do not change the run") {
   const Scene scene = scene_at_speed("vibrated", 50.0);
   Worker worker(60.0);

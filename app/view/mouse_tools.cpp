@@ -1,0 +1,265 @@
+#include "app/view/mouse_tools.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "app/view/plot_colours.h"
+#include "app/view/style.h"
+#include "render/layers/fonts.h"
+#include "render/picking.h"
+
+namespace clatter {
+
+namespace {
+
+constexpr double kLeastRadius = 0.5;
+
+bool has_circle(Tool tool) {
+  return tool != Tool::Throw;
+}
+
+bool has_arrow(Tool tool) {
+  return tool == Tool::Kick || tool == Tool::Throw;
+}
+
+Colour colour_of(Tool tool) {
+  switch (tool) {
+    case Tool::Heat:
+      return kRed;
+    case Tool::Cool:
+      return kBlue;
+    case Tool::Kick:
+    case Tool::Throw:
+      return accent_colour();
+  }
+  return {};
+}
+
+// Radius that suits the box, diameters.
+double usual_radius(const Scene& scene) {
+  constexpr double kShare = 0.15;
+  return std::max(kLeastRadius, std::stod(fmt::format("{:.2g}", kShare * scene.box.minCoeff())));
+}
+
+VecX position_of(const Snapshot& gas, std::size_t particle) {
+  return gas.positions.col(static_cast<Eigen::Index>(particle));
+}
+
+// The position of the window as a place in the box, with few digits for the scene file. Of spheres
+// it is as deep as the sphere there, or as the centre of the view.
+VecX place_in_box(const Snapshot& gas, const WindowMap& map, ImVec2 mouse,
+                  const std::optional<Slab>& slab) {
+  Vec3 deep = map.eye().centre();
+  if (gas.box.size() == 3) {
+    const auto sphere = particle_at(gas, map.eye(), map.pixel(mouse), slab);
+    if (sphere) deep = in_space(position_of(gas, *sphere));
+  }
+  const Vec3 world = map.world(mouse, deep);
+  VecX place = gas.box;
+  for (int axis = 0; axis < place.size(); ++axis) {
+    const double rounded = 0.001 * std::round(1000.0 * world[axis]);
+    place[axis] = std::clamp(std::stod(fmt::format("{:.3f}", rounded)), 0.0, gas.box[axis]);
+  }
+  return place;
+}
+
+// The particle under the mouse, or the nearest one within the reach of a hand.
+std::optional<std::size_t> particle_near(const Snapshot& gas, const WindowMap& map, ImVec2 mouse,
+                                         const std::optional<Slab>& slab) {
+  auto found = particle_at(gas, map.eye(), map.pixel(mouse), slab);
+  if (found || slab) return found;
+  float reach = 1.5f * ImGui::GetFontSize();
+  for (std::size_t i = 0; i < gas.count(); ++i) {
+    const auto place = map.place(position_of(gas, i));
+    if (!place) continue;
+    const float distance = std::hypot(place->x - mouse.x, place->y - mouse.y);
+    if (distance >= reach) continue;
+    reach = distance;
+    found = i;
+  }
+  return found;
+}
+
+}  // namespace
+
+bool MouseTools::panel(const Scene& scene, Controls& controls) {
+  if (!controls.group("Mouse tools")) return false;
+  constexpr auto kCount = static_cast<float>(kTools.size());
+  const float gap = ImGui::GetStyle().ItemSpacing.x, room = ImGui::GetContentRegionAvail().x;
+  float text = 0.0f;
+  for (const ToolText& tool : kTools) text += ImGui::CalcTextSize(tool.name).x;
+  const float around = (room - text - (kCount - 1.0f) * gap) / kCount;
+  const bool in_row = around > 0.4f * ImGui::GetFontSize();
+  bool chosen = false;
+  int column = 0;
+  for (const ToolText& tool : kTools) {
+    if (!controls.shows(tool.key)) continue;
+    if (column++ % (in_row ? 4 : 2) > 0) ImGui::SameLine();
+    const float width =
+        in_row ? ImGui::CalcTextSize(tool.name).x + around : std::floor(0.5f * (room - gap));
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, ImGui::GetStyle().FramePadding.y));
+    if (controls.button(tool.key, tool.name, tool.help, width, tool_ == tool.tool)) {
+      toggle(tool.tool);
+      chosen = tool_.has_value();
+    }
+    ImGui::PopStyleVar();
+  }
+  radius_slider(scene, controls);
+  return chosen;
+}
+
+void MouseTools::radius_slider(const Scene& scene, Controls& controls) {
+  if (!tool_ || !has_circle(*tool_)) return;
+  double value = radius(scene);
+  if (controls.number({.key = "tool.radius",
+                       .name = "Radius",
+                       .unit = "a",
+                       .help = "Of the circle at the mouse",
+                       .low = kLeastRadius,
+                       .high = std::max(1.0, scene.box.maxCoeff()),
+                       .logarithmic = true,
+                       .format = "%.2f"},
+                      value, usual_radius(scene))) {
+    radius_ = value;
+  }
+}
+
+double MouseTools::radius(const Scene& scene) const {
+  return radius_.value_or(usual_radius(scene));
+}
+
+void MouseTools::toggle(Tool tool) {
+  tool_ = tool_ == tool ? std::nullopt : std::optional(tool);
+  pressed_ = false;
+}
+
+const char* MouseTools::hint() const {
+  if (!tool_ || pressed_) return nullptr;
+  return std::ranges::find(kTools, *tool_, &ToolText::tool)->hint;
+}
+
+std::optional<MouseTools::Target> MouseTools::target_at(const Session& session,
+                                                        const WindowMap& map, Tool tool) const {
+  const Snapshot& gas = session.frame().snapshot;
+  const std::optional<Slab>& slab = session.view().slab;
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  if (has_circle(tool)) return Target{place_in_box(gas, map, mouse, slab)};
+  const auto particle = particle_near(gas, map, mouse, slab);
+  if (!particle) return std::nullopt;
+  return Target{position_of(gas, *particle), particle};
+}
+
+void MouseTools::use(Session& session, const WindowMap& map, bool over) {
+  const Frame& frame = session.frame();
+  if (press_ && press_->run != frame.run) press_.reset();
+  if (!press_) {
+    target_.reset();
+    if (!tool_ || !over) return;
+    target_ = target_at(session, map, *tool_);
+    if (!target_ || !ImGui::IsMouseClicked(0)) return;
+    press_ = Press{*tool_, frame.run, ImGui::GetIO().MousePos};
+    pressed_ = true;
+  }
+  constexpr float kClick = 3.0f;  // a shorter motion of the mouse is a click, window units
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  press_->dragged |= std::hypot(mouse.x - press_->place.x, mouse.y - press_->place.y) >= kClick;
+  if (!has_arrow(press_->tool)) {
+    target_ = target_at(session, map, press_->tool);
+    scale(session);
+  } else if (target_->particle) {
+    follow(frame.snapshot);
+  }
+  if (!ImGui::IsMouseDown(0)) release(session, map);
+}
+
+// The arrow begins at the particle. Across a periodic border it goes on.
+void MouseTools::follow(const Snapshot& gas) {
+  target_->place = nearest_image(gas, target_->place, position_of(gas, *target_->particle));
+}
+
+// Heats or cools at the press, and then after equal times of a gas that plays.
+void MouseTools::scale(Session& session) {
+  constexpr double kBetween = 0.1;  // seconds of playing
+  constexpr double kFactor = 1.1;
+  const Frame& frame = session.frame();
+  const double time = frame.snapshot.time;
+  if (press_->nudged &&
+      (frame.backwards || std::fabs(time - *press_->nudged) < kBetween * frame.speed)) {
+    return;
+  }
+  press_->nudged = time;
+  press_->nudges.push_back({.centre = target_->place,
+                            .radius = radius(session.scene()),
+                            .scale = press_->tool == Tool::Heat ? kFactor : 1.0 / kFactor});
+  session.nudge(press_->nudges.back());
+}
+
+void MouseTools::release(Session& session, const WindowMap& map) {
+  Press press = *std::exchange(press_, std::nullopt);
+  if (has_arrow(press.tool)) {
+    if (!press.dragged) return session.tell("Drag an arrow: direction and size of the velocity");
+    const VecX arrow = velocity(session.frame(), map);
+    press.nudges.push_back(
+        press.tool == Tool::Kick
+            ? Nudge{.centre = target_->place, .radius = radius(session.scene()), .add = arrow}
+            : Nudge{.particle = static_cast<int>(*target_->particle), .set = arrow});
+    session.nudge(press.nudges.back());
+  }
+  session.remember({.nudges = std::move(press.nudges)});
+}
+
+// The velocity that goes along the arrow in a second of playing, with few digits for the scene
+// file.
+VecX MouseTools::velocity(const Frame& frame, const WindowMap& map) const {
+  const Vec3 from = in_space(target_->place);
+  const Vec3 way = map.world(ImGui::GetIO().MousePos, from) - from;
+  VecX velocity = target_->place;
+  for (int axis = 0; axis < velocity.size(); ++axis) {
+    velocity[axis] = std::stod(fmt::format("{:.3g}", way[axis] / frame.speed));
+  }
+  return velocity;
+}
+
+void MouseTools::mark(ImDrawList& list, const Frame& frame, const WindowMap& map) const {
+  if (!target_ || target_->place.size() != frame.snapshot.box.size()) return;
+  const Tool tool = press_ ? press_->tool : *tool_;
+  const ImU32 ink = packed(colour_of(tool));
+  const double size = has_circle(tool) ? radius(*frame.scene) : 0.5 * frame.snapshot.diameter;
+  if (const auto outline = map.outline(target_->place, size)) {
+    const auto& [centre, radius] = *outline;
+    constexpr ImU32 kFaint = 0x30000000, kRgb = 0x00ffffff;
+    if (has_circle(tool) && press_) list.AddCircleFilled(centre, radius, (ink & kRgb) | kFaint);
+    list.AddCircle(centre, radius + (has_circle(tool) ? 0.0f : 2.0f), ink, 0, 2.5f);
+  }
+  if (press_ && press_->dragged && has_arrow(tool)) draw_arrow(list, frame, map, ink);
+}
+
+void MouseTools::draw_arrow(ImDrawList& list, const Frame& frame, const WindowMap& map,
+                            ImU32 ink) const {
+  const auto from = map.place(target_->place);
+  if (!from) return;
+  const ImVec2 to = ImGui::GetIO().MousePos;
+  const float x = to.x - from->x, y = to.y - from->y, length = std::hypot(x, y);
+  if (!(length > 0.0f)) return;
+  const float unit = ImGui::GetFontSize(), head = std::min(0.9f * unit, length);
+  const ImVec2 along(x / length, y / length);
+  const ImVec2 neck(to.x - head * along.x, to.y - head * along.y);
+  const ImVec2 side(-0.45f * head * along.y, 0.45f * head * along.x);
+  const ImU32 ground = ImGui::GetColorU32(ImGuiCol_PopupBg);
+  list.AddLine(*from, neck, ground, 0.4f * unit);
+  list.AddLine(*from, neck, ink, 0.25f * unit);
+  list.AddTriangleFilled(to, ImVec2(neck.x + side.x, neck.y + side.y),
+                         ImVec2(neck.x - side.x, neck.y - side.y), ink);
+  const std::string text = fmt::format("{:.3g} a/t", velocity(frame, map).norm());
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const ImVec2 low(to.x + 1.2f * unit, to.y - 0.5f * size.y), edge(0.4f * unit, 0.15f * unit);
+  list.AddRectFilled(ImVec2(low.x - edge.x, low.y - edge.y),
+                     ImVec2(low.x + size.x + edge.x, low.y + size.y + edge.y), ground, edge.x);
+  list.AddText(low, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+}
+
+}  // namespace clatter

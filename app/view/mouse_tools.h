@@ -1,0 +1,101 @@
+#pragma once
+
+#include <imgui.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "app/view/controls.h"
+#include "app/view/session.h"
+#include "app/view/window_map.h"
+
+namespace clatter {
+
+/// The action of the left button on the gas.
+enum class Tool { Heat, Cool, Kick, Throw };
+
+/// Texts of a tool.
+struct ToolText {
+  Tool tool;
+  const char* key;   ///< name of its button in the script log
+  const char* name;  ///< label of its button
+  const char* help;  ///< tooltip of its button
+  const char* hint;  ///< line on the picture before the first press
+};
+
+/// All tools, in the order of their buttons and of the keys 1 to 4.
+inline constexpr std::array<ToolText, 4> kTools = {{
+    {Tool::Heat, "tool.heat", "Heat",
+     "Speeds in a circle at the mouse grow by a tenth, every 0.1 s while the button is held (1)",
+     "press and hold to heat  ·  Esc ends"},
+    {Tool::Cool, "tool.cool", "Cool",
+     "Speeds in a circle at the mouse shrink by a tenth, every 0.1 s while the button is held (2)",
+     "press and hold to cool  ·  Esc ends"},
+    {Tool::Kick, "tool.kick", "Kick",
+     "A dragged arrow adds its velocity to all particles in a circle. It is the way in a second of "
+     "playing (3)",
+     "drag an arrow to kick  ·  Esc ends"},
+    {Tool::Throw, "tool.throw", "Throw",
+     "An arrow dragged from a particle is its new velocity: the way in a second of playing (4)",
+     "drag an arrow from a particle  ·  Esc ends"},
+}};
+
+/// Tools that act on the gas at the mouse. Each action is a nudge, which the run records as a
+/// [[change]]. Heat and Cool scale velocities in a circle, of spheres in a ball. Kick adds a
+/// velocity there, and Throw sets the velocity of one particle. A press is one undo entry.
+class MouseTools {
+ public:
+  /// Group with the buttons of the tools, and the radius of the circle. Returns true if a tool was
+  /// chosen.
+  bool panel(const Scene& scene, Controls& controls);
+  /// Slider for the radius of the circle; none if no tool with a circle is chosen.
+  void radius_slider(const Scene& scene, Controls& controls);
+  /// Chooses a tool, or ends the same one.
+  void toggle(Tool tool);
+  /// Ends the tool.
+  void leave() { tool_.reset(); }
+  /// The chosen tool; absent: none.
+  const std::optional<Tool>& tool() const { return tool_; }
+  /// Whether the left button on the picture belongs to a tool.
+  bool active() const { return tool_ || press_; }
+  /// A hint on the chosen tool, before its first press; nullptr: none.
+  const char* hint() const;
+
+  /// Handles the left button. `over`: the mouse is over the viewport.
+  void use(Session& session, const WindowMap& map, bool over);
+  /// Draws the circle, or the ring of a particle, and the arrow.
+  void mark(ImDrawList& list, const Frame& frame, const WindowMap& map) const;
+
+ private:
+  // The place of a tool's action.
+  struct Target {
+    VecX place;  // centre of the circle, or of the particle
+    std::optional<std::size_t> particle = {};
+  };
+  // A press of the left button.
+  struct Press {
+    Tool tool;
+    std::uint64_t run;  // of the frame
+    ImVec2 place;       // of the mouse, window units
+    bool dragged = false;
+    std::optional<double> nudged = {};  // simulation time of the frame at the last nudge
+    std::vector<Nudge> nudges = {};     // made so far
+  };
+
+  double radius(const Scene& scene) const;
+  std::optional<Target> target_at(const Session& session, const WindowMap& map, Tool tool) const;
+  void follow(const Snapshot& gas);
+  void scale(Session& session);
+  void release(Session& session, const WindowMap& map);
+  VecX velocity(const Frame& frame, const WindowMap& map) const;
+  void draw_arrow(ImDrawList& list, const Frame& frame, const WindowMap& map, ImU32 ink) const;
+
+  std::optional<Tool> tool_;
+  std::optional<double> radius_;  // absent: as usual for the box
+  bool pressed_ = false;          // since the tool was chosen
+  std::optional<Target> target_;  // absent: the mouse is elsewhere
+  std::optional<Press> press_;    // while the button is down
+};
+
+}  // namespace clatter
