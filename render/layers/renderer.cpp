@@ -66,9 +66,15 @@ double disk_extent(const Snapshot& snapshot, ColourBy colour_by) {
   return robust_extent(std::move(values));
 }
 
+// False before the first average: every cell would be hatched.
+bool has_values(const FieldMap& map) {
+  return !std::ranges::all_of(map.values, [](double value) { return std::isnan(value); });
+}
+
 // The extent of the values that a heatmap shows.
 double field_extent(const Snapshot& snapshot, const View& view) {
   const FieldMap& map = *snapshot.field;
+  if (!has_values(map)) return 0.0;
   const bool smooth = style_of(map.field, view) == FieldStyle::Smooth && map.cells.size() == 2;
   return robust_extent(smooth ? smoothed(plane_of(snapshot)).values : map.values);
 }
@@ -81,11 +87,6 @@ double arrow_extent(const ArrowMap& map) {
 
 bool shows_field(const Snapshot& snapshot, const View& view) {
   return view.field && snapshot.field;
-}
-
-// False before the first average: every cell would be hatched.
-bool has_values(const FieldMap& map) {
-  return !std::ranges::all_of(map.values, [](double value) { return std::isnan(value); });
 }
 
 // Moves the particles along their flights to a time relative to the time of the snapshot.
