@@ -30,7 +30,8 @@ void Viewport::draw(const Frame& frame, const View& view, Size size, double lett
                          letters,
                          least,
                          frame.speed};
-  if (fits_) camera_ = renderer_.fit(gas, size, view, text);
+  const Legends legends = renderer_.legends(gas, view);
+  if (fits_) camera_ = renderer_.fit(gas, size, view, text, legends);
   if (gas.box.size() == 3) {
     camera_.orbit.azimuth = view.azimuth;
     camera_.orbit.elevation = view.elevation;
@@ -40,7 +41,7 @@ void Viewport::draw(const Frame& frame, const View& view, Size size, double lett
     aim(in_space(gas.positions.col(static_cast<Eigen::Index>(*picked_))));
   }
   canvas_->bind();
-  renderer_.draw(gas, camera_, size, view, text);
+  renderer_.draw(gas, camera_, size, view, text, legends);
 }
 
 void Viewport::show(int x, int y) const {

@@ -97,6 +97,7 @@ class EngineWork {
   struct Opening {
     command::Open asked;
     OpeningRun run;
+    bool complete = false;
   };
 
   void obey_all() {
@@ -238,7 +239,7 @@ class EngineWork {
 
   // Continues the opening for a slice of time. Returns whether it is complete.
   bool work_on_opening() {
-    constexpr std::chrono::milliseconds kSlice{30};
+    constexpr std::chrono::milliseconds kSlice{20};
     const auto due = Clock::now() + kSlice;
     bool complete = false;
     const bool possible = attempt([&] {
@@ -248,9 +249,14 @@ class EngineWork {
     return complete;
   }
 
-  // A slice of the opening, after which the other commands follow.
+  // A slice of the opening, after which the other commands follow. The first frame of the run has a
+  // slice of its own, because its picture takes long.
   void open_on() {
-    if (work_on_opening()) attempt([this] { finish_opening(); });
+    if (opening_->complete) {
+      attempt([this] { finish_opening(); });
+    } else if (work_on_opening()) {
+      opening_->complete = true;
+    }
     if (!opening_) {
       ++handled_;
       obey_all();
@@ -355,10 +361,11 @@ class EngineWork {
       const EventCounts& counts = watched_->counts();
       const bool arrived = watched_->run_until(time, collisions, counts.steps() + slice_);
       const bool collided = watched_->counts().collisions() >= collisions;
+      if (arrived || collided) return arrived;
+      // A slice that ends early says nothing about the cost of its steps.
       const auto now = Clock::now();
       slice_ = now - began < kSlice ? 2 * slice_ : std::max<std::uint64_t>(1, slice_ / 2);
       slice_ = std::min(slice_, kLongestSlice);
-      if (arrived || collided) return arrived;
       if (now >= due || commands_.pending()) return false;
     }
   }

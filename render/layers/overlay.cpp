@@ -390,10 +390,11 @@ Overlay::Overlay(const Gl& gl) : gui_(gl), context_(make_gui_context()) {}
 Fonts Overlay::fonts_for(Size size, const OverlayText& text) {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   const float unit = unit_for(size, text);
-  if (unit == loaded_size_ && text.title == loaded_title_) return loaded_fonts(atlas);
+  const std::string& title = text.card > 0.0 ? text.title : loaded_title_;
+  if (unit == loaded_size_ && title == loaded_title_) return loaded_fonts(atlas);
   atlas.Clear();
   loaded_size_ = unit;
-  loaded_title_ = text.title;
+  loaded_title_ = title;
   const Fonts fonts = add_fonts(atlas, loaded_size_, loaded_title_);
   gui_.upload(atlas);
   return fonts;

@@ -66,9 +66,15 @@ double disk_extent(const Snapshot& snapshot, ColourBy colour_by) {
   return robust_extent(std::move(values));
 }
 
+// False before the first average: every cell would be hatched.
+bool has_values(const FieldMap& map) {
+  return !std::ranges::all_of(map.values, [](double value) { return std::isnan(value); });
+}
+
 // The extent of the values that a heatmap shows.
 double field_extent(const Snapshot& snapshot, const View& view) {
   const FieldMap& map = *snapshot.field;
+  if (!has_values(map)) return 0.0;
   const bool smooth = style_of(map.field, view) == FieldStyle::Smooth && map.cells.size() == 2;
   return robust_extent(smooth ? smoothed(plane_of(snapshot)).values : map.values);
 }
@@ -81,11 +87,6 @@ double arrow_extent(const ArrowMap& map) {
 
 bool shows_field(const Snapshot& snapshot, const View& view) {
   return view.field && snapshot.field;
-}
-
-// False before the first average: every cell would be hatched.
-bool has_values(const FieldMap& map) {
-  return !std::ranges::all_of(map.values, [](double value) { return std::isnan(value); });
 }
 
 // Moves the particles along their flights to a time relative to the time of the snapshot.
@@ -151,7 +152,7 @@ void Renderer::fix(const RangeEnds& ends) {
   arrow_range_.fixed = fixed(ends.arrows);
 }
 
-Legends Renderer::legends_for(const Snapshot& snapshot, const View& view, double scale) {
+Legends Renderer::legends(const Snapshot& snapshot, const View& view) {
   const auto dimension = static_cast<int>(snapshot.box.size());
   const Colour ground = theme_of(view).background;
   Legends legends;
@@ -169,20 +170,18 @@ Legends Renderer::legends_for(const Snapshot& snapshot, const View& view, double
   }
   if (view.arrows && snapshot.arrows) {
     const Label label = label_of(snapshot.arrows->quantity, dimension);
-    const double longest = snapshot.arrows->cell.minCoeff() * scale;
+    const double longest = snapshot.arrows->cell.minCoeff();
     legends.arrows = {
         label, longest / arrow_range_.end(label, [&] { return arrow_extent(*snapshot.arrows); })};
   }
   return legends;
 }
 
-Camera Renderer::fit(const Snapshot& snapshot, Size size, const View& view,
-                     const OverlayText& text) {
+Camera Renderer::fit(const Snapshot& snapshot, Size size, const View& view, const OverlayText& text,
+                     const Legends& legends) {
   const double wall = wall_thickness(size);
   Margins margins{wall, wall, wall, wall};
-  if (view.overlay) {
-    margins = overlay_.margins(snapshot, size, legends_for(snapshot, view, 1.0), text);
-  }
+  if (view.overlay) margins = overlay_.margins(snapshot, size, legends, text);
   if (snapshot.box.size() == 3) return whole_box(snapshot, view, size, margins);
   // Disks extend over a periodic border by half their diameter.
   Vec2 overhang(0.0, 0.0);
@@ -194,9 +193,9 @@ Camera Renderer::fit(const Snapshot& snapshot, Size size, const View& view,
 }
 
 void Renderer::draw(const Snapshot& snapshot, const Camera& camera, Size size, const View& view,
-                    const OverlayText& text) {
+                    const OverlayText& text, Legends legends) {
   const Projection projection{camera, size};
-  const Legends legends = legends_for(snapshot, view, projection.scale());
+  if (legends.arrows) legends.arrows->pixels *= projection.scale();
   const ThemeColours theme = theme_of(view);
   gl_->Enable(GL_BLEND);
   gl_->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);

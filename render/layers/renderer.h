@@ -54,13 +54,24 @@ class Renderer {
   /// Fixes the ends of the automatic colour ranges.
   void fix(const RangeEnds& ends);
 
+  /// The legends of the next picture. Automatic colour ranges follow the snapshot.
+  Legends legends(const Snapshot& snapshot, const View& view);
+
   /// The camera that shows the whole box, inside the margins of the overlay.
-  Camera fit(const Snapshot& snapshot, Size size, const View& view, const OverlayText& text);
+  Camera fit(const Snapshot& snapshot, Size size, const View& view, const OverlayText& text,
+             const Legends& legends);
+  Camera fit(const Snapshot& snapshot, Size size, const View& view, const OverlayText& text) {
+    return fit(snapshot, size, view, text, legends(snapshot, view));  ///< the same
+  }
 
   /// Draws a picture of `size`. Throws RunError if OpenGL does not support the size times samples,
   /// and Interrupted after a stop request.
   void draw(const Snapshot& snapshot, const Camera& camera, Size size, const View& view,
-            const OverlayText& text);
+            const OverlayText& text, Legends legends);
+  void draw(const Snapshot& snapshot, const Camera& camera, Size size, const View& view,
+            const OverlayText& text) {
+    draw(snapshot, camera, size, view, text, legends(snapshot, view));  ///< the same
+  }
 
  private:
   /// Automatic colour range of one quantity.
@@ -96,7 +107,6 @@ class Renderer {
   void blend_in_light(bool on);
   void clear(const Projection& projection, const ThemeColours& theme);
   void pause(const Projection& projection) const;
-  Legends legends_for(const Snapshot& snapshot, const View& view, double scale);
   void draw_world(const Snapshot& snapshot, const Projection& projection, const View& view,
                   const Legends& legends, const ThemeColours& theme);
   void draw_exposure(const Snapshot& snapshot, const Projection& projection, const View& view,

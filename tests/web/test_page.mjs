@@ -15,6 +15,14 @@ const test = (name, run) => cases.set(name, run);
 // Of `clatter measure vibrated --until 20 --seed 1`.
 const kHash = '5ca4f7af577a3f59';
 
+// More keys, and the state at t = 3 by `clatter measure vibrated --until 3 --seed 1 --set KEY=VALUE`.
+const kHeated = {
+  'change': '[{time=1.0,nudge={centre=[10.0,12.0],radius=4.0,scale=3.0}}]',
+  'view.captions': '[{text="A nudge heats T_x",from=1.0}]',
+  'measure.observables': '["radial_distribution"]',
+};
+const kHeatedHash = 'd87fe25e87821d81';
+
 let browser, server, host;  // host serves pages of another origin
 
 const scratch_folder = mkdtempSync(join(tmpdir(), 'clatter-page-'));
@@ -90,6 +98,16 @@ test('the gas has the state of native builds at t = 20', async () => {
   const status = await browser.until(
       `log.map((line) => JSON.parse(line)).filter((e) => e.event === 'status' && e.time === 20 && e.hash).pop()`);
   assert.equal(status.hash, kHash);
+});
+
+test('a link with a nudge, a caption and an observable has the state of native builds', async () => {
+  const set = Object.entries(kHeated).map(([key, value]) => `&${key}=${encodeURIComponent(value)}`).join('');
+  await open('vibrated&view.speed=20' + set, '&until=3');
+  const status = await browser.until(
+      `log.map((line) => JSON.parse(line)).filter((e) => e.event === 'status' && e.time === 3 && e.hash).pop()`);
+  assert.equal(status.hash, kHeatedHash);
+  assert.deepEqual(await events('message'), []);
+  assert.deepEqual(complaints(), []);
 });
 
 test('every scene of the gallery opens and moves', async () => {
@@ -456,10 +474,15 @@ test('a film shows the gas', async () => {
   if (!has_ffmpeg) return ' (skipped: needs ffmpeg)';
   await open('vibrated&view.speed=3');
   await keep_downloads();
+  await browser.value(`void (globalThis.filmed = 0, globalThis.added = Film.prototype.add,
+      Film.prototype.add = function (...place) { ++filmed; return added.apply(this, place); })`);
   await scroll_to('film');
+  const began = Date.now();
   await click('film');
-  await sleep(4000);
+  await sleep(3000);
+  await browser.until('filmed > 30');
   await click('film');
+  const longest = (Date.now() - began) / 1000;
   const [name, bytes] = await saved_file();
   assert.match(name, /^clatter-1\.(mp4|webm)$/);
   writeFileSync(scratch(name), bytes);
@@ -472,7 +495,7 @@ test('a film shows the gas', async () => {
   const times = execute('ffprobe', '-v', 'error', '-select_streams', 'v', '-show_entries', 'packet=pts_time',
                         '-of', 'csv=p=0', scratch(name)).stdout.split('\n').map(parseFloat).filter(isFinite);
   const length = Math.max(...times) - Math.min(...times);
-  assert.ok(length > 1.5 && length < 30, `${length} s`);
+  assert.ok(length > 1.5 && length < longest + 1, `${length} s`);
   execute('ffmpeg', '-v', 'error', '-y', '-sseof', '-1', '-i', scratch(name), '-frames:v', '1', scratch('film.png'));
   const {stderr} = execute('ffmpeg', '-i', scratch('film.png'), '-vf', 'signalstats,metadata=print', '-f', 'null', '-');
   const value = (key) => Number(new RegExp(`${key}=([\\d.]+)`).exec(stderr)[1]);
@@ -581,10 +604,11 @@ test('the gallery opens, and its pictures are made in slices', async () => {
   await watch_tasks();
   await click('gallery');
   await browser.until('log.some((line) => line.includes(\'"gallery.vibrated"\'))');
-  await sleep(8000);
+  const whole = 8000;
+  await sleep(whole);
   const longest = await browser.value('Math.max(0, ...tasks)');
-  console.log(`  longest task ${Math.round(longest)} ms`);
-  assert.ok(longest < 1000, `${longest} ms`);  // of a busy machine, which compiles shaders too
+  console.log(`  longest task ${Math.round(longest)} ms of ${whole} ms`);
+  assert.ok(longest < 0.25 * whole);
   // Pictures of scenes have more colours than the list without them.
   const [x, y, , height] = await place_of('gallery.vibrated');
   const colours = await browser.value(`(() => {

@@ -126,3 +126,18 @@ TEST_CASE("SlicedWorker: an opening that is cancelled, or followed by another, h
   CHECK(engine.frames().front().run == 2);
   CHECK(engine.frames().front().scene->title == load_scene("cradle").title);
 }
+
+TEST_CASE("SlicedWorker: a large gas gets short slices after a small gas") {
+  SlicedWorker engine;
+  engine.send(command::Open{load_scene("cradle"), 1, true});
+  for (int slice = 0; slice < 50; ++slice) engine.work(2ms);
+  engine.send(command::Open{large_scene(), 1, true});
+  engine.send(command::SetSpeed{1000.0});
+  REQUIRE(work_until(engine, [](const Frame& frame) { return frame.handled == 3; }));
+  std::this_thread::sleep_for(10ms);
+  engine.work(0ms);
+  engine.frames().update();
+  const Frame& frame = engine.frames().front();
+  CHECK(frame.snapshot.time > 0.0);
+  CHECK(frame.snapshot.collisions < 10'000);
+}
