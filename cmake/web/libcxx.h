@@ -32,6 +32,7 @@ using ::ranges::is_sorted;
 using ::ranges::lower_bound;
 using ::ranges::max;
 using ::ranges::max_element;
+using ::ranges::min;
 using ::ranges::minmax;
 using ::ranges::move;
 using ::ranges::none_of;
