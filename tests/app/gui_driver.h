@@ -61,7 +61,6 @@ class GuiDriver {
     ~Screen() { shell.run("kill $(cat xvfb)"); }
   };
 
-
   Shell shell_;
   Screen screen_{shell_};
   std::string display_;
