@@ -176,7 +176,7 @@ void MouseTools::use(Session& session, const WindowMap& map, bool over) {
   if (!ImGui::IsMouseDown(0)) release(session, map);
 }
 
-// The arrow begins at the particle. Across a periodic border it goes on.
+// Moves the start of the arrow with the particle. A periodic border causes no jump.
 void MouseTools::follow(const Snapshot& gas) {
   target_->place = nearest_image(gas, target_->place, position_of(gas, *target_->particle));
 }
@@ -212,8 +212,8 @@ void MouseTools::release(Session& session, const WindowMap& map) {
   session.remember({.nudges = std::move(press.nudges)});
 }
 
-// The velocity that goes along the arrow in a second of playing, with few digits for the scene
-// file.
+// The velocity whose distance in one second of playing is the length of the arrow, with few digits
+// for the scene file.
 VecX MouseTools::velocity(const Frame& frame, const WindowMap& map) const {
   const Vec3 from = in_space(target_->place);
   const Vec3 way = map.world(ImGui::GetIO().MousePos, from) - from;

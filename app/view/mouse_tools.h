@@ -33,11 +33,14 @@ inline constexpr std::array<ToolText, 4> kTools = {{
      "Speeds in a circle at the mouse shrink by a tenth, every 0.1 s while the button is held (2)",
      "press and hold to cool  ·  Esc ends"},
     {Tool::Kick, "tool.kick", "Kick",
-     "A dragged arrow adds its velocity to all particles in a circle. It is the way in a second of "
-     "playing (3)",
+     "A dragged arrow adds a velocity to all particles in a circle. Its length is the distance in "
+     "one "
+     "second of playing (3)",
      "drag an arrow to kick  ·  Esc ends"},
     {Tool::Throw, "tool.throw", "Throw",
-     "An arrow dragged from a particle is its new velocity: the way in a second of playing (4)",
+     "An arrow dragged from a particle sets its velocity. Its length is the distance in one second "
+     "of "
+     "playing (4)",
      "drag an arrow from a particle  ·  Esc ends"},
 }};
 

@@ -356,7 +356,7 @@ static std::vector<Change> take_nudges(std::vector<Change>& changes,
 void Session::exchange_nudges(Edit& edit, bool again) {
   std::vector<Change> changes = frame().scene->changes;
   if (!again) edit.undone_nudges = take_nudges(changes, edit.nudges);
-  if (edit.undone_nudges.empty()) return tell("The run has none of these nudges any more");
+  if (edit.undone_nudges.empty()) return tell("These nudges are no longer part of the run");
   if (again) changes.insert(changes.end(), edit.undone_nudges.begin(), edit.undone_nudges.end());
   const double from = std::ranges::min(edit.undone_nudges, {}, &Change::time).time;
   log_.event("replace_changes",

@@ -55,7 +55,6 @@ inline constexpr Presence kNotWithoutSpins = {
     Presence::Forbidden, "has no meaning where nothing spins",
     "remove it, or make the particles or a wall rough: give friction above 0, or "
     "tangential_restitution above -1"};
-
 inline constexpr Presence kNotWithoutRamp = {Presence::Forbidden, "has no meaning without a ramp",
                                              "remove it, or set ramp = \"linear\""};
 inline constexpr Presence kNotOfExact = {

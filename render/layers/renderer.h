@@ -60,17 +60,19 @@ class Renderer {
   /// The camera that shows the whole box, inside the margins of the overlay.
   Camera fit(const Snapshot& snapshot, Size size, const View& view, const OverlayText& text,
              const Legends& legends);
+  /// The same, with the legends of the snapshot.
   Camera fit(const Snapshot& snapshot, Size size, const View& view, const OverlayText& text) {
-    return fit(snapshot, size, view, text, legends(snapshot, view));  ///< the same
+    return fit(snapshot, size, view, text, legends(snapshot, view));
   }
 
   /// Draws a picture of `size`. Throws RunError if OpenGL does not support the size times samples,
   /// and Interrupted after a stop request.
   void draw(const Snapshot& snapshot, const Camera& camera, Size size, const View& view,
             const OverlayText& text, Legends legends);
+  /// The same, with the legends of the snapshot.
   void draw(const Snapshot& snapshot, const Camera& camera, Size size, const View& view,
             const OverlayText& text) {
-    draw(snapshot, camera, size, view, text, legends(snapshot, view));  ///< the same
+    draw(snapshot, camera, size, view, text, legends(snapshot, view));
   }
 
  private:
