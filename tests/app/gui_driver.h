@@ -66,4 +66,9 @@ class GuiDriver {
   std::string display_;
 };
 
+/// Whether a status event is that of a halted gas.
+inline bool halted(const nlohmann::json& status) {
+  return !status["plays"] && status.contains("hash");
+}
+
 }  // namespace clatter

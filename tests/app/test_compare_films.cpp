@@ -27,7 +27,7 @@ std::string state_hash(const Shell& shell, const std::string& setting) {
 }
 
 // 90 frames of two gases whose averages and trails reach beyond the parts of the film.
-const std::string kFilm =
+const std::string kComparison =
     "clatter render scene.toml --compare particles.restitution=1 --compare walls.left.stroke=0.4 "
     "--size 240x90 --fps 10 --quiet --speed 1 --to 9 ";
 
@@ -96,19 +96,19 @@ TEST_CASE("Compare films: disks and spheres are beside each other in a film") {
 TEST_CASE("Compare films: parts from checkpoints, and a resumed film, are the film") {
   const Shell shell;
   write_film_scene(shell);
-  REQUIRE(shell.run(kFilm + "--out whole && " + kFilm + "--out whole.mkv").code == 0);
+  REQUIRE(shell.run(kComparison + "--out whole && " + kComparison + "--out whole.mkv").code == 0);
   for (const std::string part : {"--frames 0:37 --checkpoint c", "--frames 37: --resume c"}) {
     CAPTURE(part);
-    const Outcome outcome = shell.run(kFilm + "--out parts " + part);
+    const Outcome outcome = shell.run(kComparison + "--out parts " + part);
     CAPTURE(outcome.err);
     CHECK(outcome.code == 0);
   }
   CHECK(shell.run("diff -r whole parts && rm c*").code == 0);
 
-  const Outcome cut = cut_off(shell, kFilm + "--out film.mkv", "INT");
+  const Outcome cut = cut_off(shell, kComparison + "--out film.mkv", "INT");
   CAPTURE(cut.err);
   CHECK(cut.code == 130);
-  const Outcome resumed = shell.run(kFilm + "--out film.mkv --resume c");
+  const Outcome resumed = shell.run(kComparison + "--out film.mkv --resume c");
   CAPTURE(resumed.err);
   CHECK(resumed.code == 0);
   CHECK(shell.run("cmp film.mkv whole.mkv").code == 0);

@@ -26,7 +26,7 @@ using testing::table_in;
 
 namespace {
 
-const std::string kRun =
+const std::string kEventRun =
     "clatter measure s.toml --quiet --set measure.burn_in=0 --set measure.duration=30 ";
 
 // A gas without any symmetry.
@@ -67,7 +67,7 @@ TEST_CASE("Event log: it has all collisions, and they add up to the result") {
     CAPTURE(dimension);
     const Shell shell;
     shell.write("s.toml", scene(dimension));
-    const Outcome outcome = shell.run(kRun + "--events e.csv --out r.json");
+    const Outcome outcome = shell.run(kEventRun + "--events e.csv --out r.json");
     CAPTURE(outcome.err);
     REQUIRE(outcome.code == 0);
     const json result = json::parse(shell.read("r.json"));
@@ -161,9 +161,9 @@ TEST_CASE("Event log: HDF5 has the numbers of the CSV, and the run is the same")
     CAPTURE(dimension);
     const Shell shell;
     shell.write("s.toml", scene(dimension));
-    REQUIRE(shell.run(kRun + "--out plain.json").code == 0);
-    REQUIRE(shell.run(kRun + "--events e.csv --out csv.json").code == 0);
-    REQUIRE(shell.run(kRun + "--events e.h5 --out h5.json").code == 0);
+    REQUIRE(shell.run(kEventRun + "--out plain.json").code == 0);
+    REQUIRE(shell.run(kEventRun + "--events e.csv --out csv.json").code == 0);
+    REQUIRE(shell.run(kEventRun + "--events e.h5 --out h5.json").code == 0);
     CHECK(shell.run("ls e.*").out == "e.csv\ne.h5\n");
     json plain = json::parse(shell.read("plain.json")), log = json::parse(shell.read("h5.json"));
     for (json* each : {&plain, &log}) each->erase("performance");
@@ -182,9 +182,9 @@ TEST_CASE("Event log: HDF5 has the numbers of the CSV, and the run is the same")
 TEST_CASE("Event log: particles, a region and a share") {
   const Shell shell;
   shell.write("s.toml", scene(2));
-  REQUIRE(shell.run(kRun + "--events all.csv --out r.json").code == 0);
+  REQUIRE(shell.run(kEventRun + "--events all.csv --out r.json").code == 0);
   const auto lines = [&](const std::string& flags) {
-    const Outcome outcome = shell.run(kRun + flags + " --events e.csv --out r.json");
+    const Outcome outcome = shell.run(kEventRun + flags + " --events e.csv --out r.json");
     CAPTURE(outcome.err);
     REQUIRE(outcome.code == 0);
     return shell.run("tail -n +3 e.csv").out;
@@ -207,7 +207,7 @@ TEST_CASE("Event log: an interrupted and resumed run has the same log") {
     CAPTURE(file);
     const Shell shell;
     shell.write("s.toml", scene(2));
-    const std::string line = kRun + "--set measure.duration=40000 --events-share 0.1 ";
+    const std::string line = kEventRun + "--set measure.duration=40000 --events-share 0.1 ";
     REQUIRE(shell.run(line + "--events whole_" + file + " --out r.json").code == 0);
     REQUIRE(cut_off(shell, line + "--events " + file + " --out r.json", "INT").code == 130);
     CHECK(shell.run("test -e e.h5").code != 0);
@@ -228,10 +228,12 @@ TEST_CASE("Event log: a complete run can be continued with its log") {
     CAPTURE(file);
     const Shell shell;
     shell.write("s.toml", scene(2));
-    REQUIRE(shell.run(kRun + "--events whole_" + file + " --out r.json").code == 0);
-    REQUIRE(shell.run(kRun + "--until 10 --checkpoint c --out r.json --events " + file).code == 0);
+    REQUIRE(shell.run(kEventRun + "--events whole_" + file + " --out r.json").code == 0);
+    REQUIRE(shell.run(kEventRun + "--until 10 --checkpoint c --out r.json --events " + file).code ==
+            0);
     CHECK(std::filesystem::exists(shell.path(file)));
-    const Outcome resumed = shell.run(kRun + "--until 30 --resume c --out r.json --events " + file);
+    const Outcome resumed =
+        shell.run(kEventRun + "--until 30 --resume c --out r.json --events " + file);
     CAPTURE(resumed.err);
     CHECK(resumed.code == 0);
     CHECK(shell.run("cmp " + file + " whole_" + file).code == 0);
@@ -336,7 +338,7 @@ TEST_CASE("Event log: a full disk leaves complete records, and no damaged log") 
 TEST_CASE("Event log: if the HDF5 file cannot be written, the run can be resumed") {
   const Shell shell;
   shell.write("s.toml", scene(2));
-  const std::string line = kRun + "--events e.h5 --out r.json";
+  const std::string line = kEventRun + "--events e.h5 --out r.json";
   const Outcome full = shell.run("ulimit -f 800; " + line);
   CAPTURE(full.err);
   CHECK(full.code == 1);
@@ -370,22 +372,22 @@ TEST_CASE("Event log: it is complete although the trajectory of a stopped run is
 TEST_CASE("Event log: wrong use is refused") {
   const Shell shell;
   shell.write("s.toml", scene(2));
-  check_refused(shell, kRun + "--events e.txt", {"e.txt has no extension of an event log"});
-  check_refused(shell, kRun + "--events e.csv --events-of 12", {"there is no particle 12"});
-  check_refused(shell, kRun + "--events e.csv --events-in 1,2,3",
+  check_refused(shell, kEventRun + "--events e.txt", {"e.txt has no extension of an event log"});
+  check_refused(shell, kEventRun + "--events e.csv --events-of 12", {"there is no particle 12"});
+  check_refused(shell, kEventRun + "--events e.csv --events-in 1,2,3",
                 {"3 numbers are given", "give 4"});
-  check_refused(shell, kRun + "--events e.csv --events-in 5,0,2,8",
+  check_refused(shell, kEventRun + "--events e.csv --events-in 5,0,2,8",
                 {"no place of the box is between 5 and 0 along x"});
-  check_refused(shell, kRun + "--events e.csv --events-in 0,5,9,12",
+  check_refused(shell, kEventRun + "--events e.csv --events-in 0,5,9,12",
                 {"no place of the box is between 9 and 12 along y"});
-  check_refused(shell, kRun + "--events e.csv --events-share 2", {"--events-share"});
-  check_refused(shell, kRun + "--events e.h5 --out e.h5.records", {"e.h5.records"});
-  REQUIRE(shell.run(kRun + "--until 5 --checkpoint c --out r.json").code == 0);
+  check_refused(shell, kEventRun + "--events e.csv --events-share 2", {"--events-share"});
+  check_refused(shell, kEventRun + "--events e.h5 --out e.h5.records", {"e.h5.records"});
+  REQUIRE(shell.run(kEventRun + "--until 5 --checkpoint c --out r.json").code == 0);
   shell.write("e.h5.records", "records of another run");
-  check_refused(shell, kRun + "--resume c --out r.json --events e.h5",
+  check_refused(shell, kEventRun + "--resume c --out r.json --events e.h5",
                 {"e.h5.records exists, and the checkpoint has no event log"});
-  check_refused(shell, kRun + "--events-of 1", {"--events"});
-  check_refused(shell, kRun + "--events e.csv --trajectory e.csv --every 1", {"--events"});
+  check_refused(shell, kEventRun + "--events-of 1", {"--events"});
+  check_refused(shell, kEventRun + "--events e.csv --trajectory e.csv --every 1", {"--events"});
 }
 
 }  // namespace clatter

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tests/app/readers.h"
 #include "tests/app/shell.h"
 #include "tests/app/tables.h"
 
@@ -24,13 +25,6 @@ const std::string kMeasure =
     "--set 'measure.fields=[\"density\",\"velocity\",\"temperature\",\"stress\","
     "\"stress_collisional\",\"heat_flux\",\"dissipation\",\"spin\"]' ";
 constexpr int kColumns = 40, kRows = 20;
-
-json read(const Shell& shell, const std::string& reader, const std::string& file) {
-  const Outcome outcome = shell.run(CLATTER_READERS + reader + " " + file);
-  CAPTURE(outcome.err);  // names a missing module, which ./run test installs
-  REQUIRE(outcome.code == 0);
-  return json::parse(outcome.out);
-}
 
 // Component k of an array that VTK read.
 json component(const json& array, std::size_t k) {
@@ -90,7 +84,7 @@ TEST_CASE("Field files: VTK reads the maps with their vectors, tensors, units an
   const Shell shell;
   REQUIRE(shell.run(kMeasure + "--out r.json --csv tables --vtk maps").code == 0);
   const auto columns = table_in(shell.read("tables/maps.csv")).columns;
-  const json image = read(shell, "read_vtk.py", "maps/fields.vti");
+  const json image = read_by(shell, "read_vtk.py", "maps/fields.vti");
   CHECK(image.at("dimensions") == json({kColumns + 1, kRows + 1, 1}));  // points around the cells
   CHECK(image.at("origin") == json({0.0, 0.0, 0.0}));
   CHECK(image.at("spacing") == json({0.5, 1.25, 1.0}));
@@ -125,8 +119,8 @@ TEST_CASE("Field files: VTK reads the maps with their vectors, tensors, units an
 TEST_CASE("Field files: VTK reads the series of maps, and its parts add up to the whole") {
   const Shell shell;
   REQUIRE(shell.run(kMeasure + "--out r.json --vtk maps").code == 0);
-  const json whole = read(shell, "read_vtk.py", "maps/fields.vti");
-  const json series = read(shell, "read_vtk.py", "maps/series.pvd");
+  const json whole = read_by(shell, "read_vtk.py", "maps/fields.vti");
+  const json series = read_by(shell, "read_vtk.py", "maps/series.pvd");
   REQUIRE(series.size() == 64);
   std::vector<double> sums(kColumns * kRows);
   double time = 20.0;
@@ -159,7 +153,7 @@ TEST_CASE("Field files: a series of maps replaces a longer one, and leaves the f
   SUBCASE("of more parts") {
     // 520 windows, 16 per part.
     REQUIRE(shell.run(line + "'[\"density\"]'").code == 0);
-    CHECK(read(shell, "read_vtk.py", "maps/series.pvd").size() == 33);
+    CHECK(read_by(shell, "read_vtk.py", "maps/series.pvd").size() == 33);
     CHECK(shell.run("cd maps; ls | tail -n 3").out ==
           "series_31.vti\nseries_32.vti\nseries_50.vti\n");
     CHECK(shell.run("ls maps/note").code == 0);
@@ -175,7 +169,7 @@ TEST_CASE("Field files: h5py reads the whole result, the scene as attributes, an
   REQUIRE(shell.run(kMeasure + "--seed 9223372036854775809 --out r.json --csv tables --hdf5 r.h5")
               .code == 0);
   const json result = json::parse(shell.read("r.json"));
-  json file = read(shell, "read_hdf5.py", "r.h5");
+  json file = read_by(shell, "read_hdf5.py", "r.h5");
   for (const auto& [key, value] : result.items()) {
     if (key == "temperature_series" || key == "profile") continue;
     CAPTURE(key);
@@ -227,8 +221,8 @@ TEST_CASE("Field files: residuals have maps of numbers in all files, and no seri
   SUBCASE("alone") {}
   REQUIRE(shell.run(kMeasure + files + "--set 'measure.fields=[" + fields + "]'").code == 0);
   const bool alone = fields == "\"balance\"";
-  const json file = read(shell, "read_hdf5.py", "r.h5");
-  const json image = read(shell, "read_vtk.py", "maps/fields.vti");
+  const json file = read_by(shell, "read_hdf5.py", "r.h5");
+  const json image = read_by(shell, "read_vtk.py", "maps/fields.vti");
   const Table table = table_in(shell.read("tables/maps.csv"));
   CHECK(image.at("arrays").size() == (alone ? 4 : 5));
   double largest = 0.0;
@@ -256,7 +250,7 @@ TEST_CASE("Field files: without fields there are no maps, and HDF5 has all the r
       "clatter measure cooling --quiet --until 2 --set measure.fields=[] "
       "--out r.json --csv tables --hdf5 r.h5";
   REQUIRE(shell.run(line).code == 0);
-  const json file = read(shell, "read_hdf5.py", "r.h5");
+  const json file = read_by(shell, "read_hdf5.py", "r.h5");
   CHECK(file.at("state_hash") == json::parse(shell.read("r.json")).at("state_hash"));
   CHECK(file.at("temperature_series").at("time").at("values") == json({0.0, 1.0, 2.0}));
   CHECK_FALSE(file.contains("maps"));

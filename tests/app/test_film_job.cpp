@@ -11,7 +11,7 @@ namespace clatter {
 namespace {
 
 // 210 frames with automatic colours, averages and trails, at an uneven frame rate.
-const std::string kFilm =
+const std::string kJob =
     "clatter render scene.toml --size 160x120 --speed 0.7 --from 2 --to 23 --shutter 0.5 "
     "--seed 5 --set particles.restitution=0.85 --backend osmesa --fps ";
 
@@ -27,7 +27,7 @@ std::string task(const std::string& out, int number) {
 }
 
 Outcome submit(const Shell& shell, const std::string& out, const std::string& flags) {
-  return shell.run(kFilm + "7 --dry-run --out " + word(out) + ' ' + flags);
+  return shell.run(kJob + "7 --dry-run --out " + word(out) + ' ' + flags);
 }
 
 std::string script_of(const Shell& shell, const std::string& out) {
@@ -51,7 +51,7 @@ TEST_CASE("Film job: tasks in any order make the film of one run, to the byte") 
   for (const std::string out : {"film.mp4", "it's a %n.gif", "frames"}) {
     CAPTURE(out);
     REQUIRE(
-        shell.run(kFilm + "7 --quiet --out " + word(out) + " && mv " + word(out) + " whole").code ==
+        shell.run(kJob + "7 --quiet --out " + word(out) + " && mv " + word(out) + " whole").code ==
         0);
     REQUIRE(submit(shell, out, "--slurm 2").out ==
             shell.path(out + ".slurm/job.sh").string() + '\n');
@@ -77,7 +77,7 @@ TEST_CASE("Film job: tasks in any order make the film of one run, to the byte") 
 TEST_CASE("Film job: interrupted and killed tasks continue, and the film is the same") {
   const Shell shell;
   write_film_scene(shell);
-  REQUIRE(shell.run(kFilm + "7 --quiet --out film.mp4 && mv film.mp4 whole").code == 0);
+  REQUIRE(shell.run(kJob + "7 --quiet --out film.mp4 && mv film.mp4 whole").code == 0);
   REQUIRE(submit(shell, "film.mp4", "--slurm 1").code == 0);
   // Runs the task until a piece of the film has begun.
   const auto until_piece = [](const std::string& piece) {
@@ -165,15 +165,15 @@ TEST_CASE("Film job: parts drawn by hand are joined, and missing frames are name
   const Shell shell;
   write_film_scene(shell);
   for (const std::string range : {"000000.mkv --frames 0:60", "000120.mkv --frames 120:"}) {
-    REQUIRE(shell.run("mkdir -p parts && " + kFilm + "7 --quiet --out parts/" + range).code == 0);
+    REQUIRE(shell.run("mkdir -p parts && " + kJob + "7 --quiet --out parts/" + range).code == 0);
   }
-  const std::string join = kFilm + "7 --join parts ";
+  const std::string join = kJob + "7 --join parts ";
   check_refused(shell, join + "--out film.mkv",
                 {"parts: the parts lack frame 60; draw 000060.mkv with --frames 60:120"});
-  REQUIRE(shell.run(kFilm + "7 --quiet --out parts/000060.mkv --frames 60:120").code == 0);
-  check_refused(shell, kFilm + "14 --join parts --out film.mkv",
+  REQUIRE(shell.run(kJob + "7 --quiet --out parts/000060.mkv --frames 60:120").code == 0);
+  check_refused(shell, kJob + "14 --join parts --out film.mkv",
                 {"the parts lack frame 210; draw 000210.mkv with --frames 210:420"});
-  check_refused(shell, kFilm + "3 --join parts --out film.mkv", {"the parts have more frames"});
+  check_refused(shell, kJob + "3 --join parts --out film.mkv", {"the parts have more frames"});
   shell.run("cp parts/000060.mkv parts/000300.mkv");
   check_refused(shell, join + "--out film.mkv", {"parts: the parts have more frames"});
   shell.run("mv parts/000300.mkv parts/60.mkv");
@@ -183,13 +183,13 @@ TEST_CASE("Film job: parts drawn by hand are joined, and missing frames are name
   check_refused(shell, join + "--out film.mp4", {"lack frame 0; draw 000000.mp4"});
   check_refused(shell, join + "--out parts/000000.mkv", {"is in the folder of the parts"});
   check_refused(shell, join + "--out film.png", {"only films are joined"});
-  check_refused(shell, kFilm + "7 --join none --out film.mkv", {"none: No such file or directory"});
+  check_refused(shell, kJob + "7 --join none --out film.mkv", {"none: No such file or directory"});
   const Outcome without = shell.run(
       "c=$(command -v clatter); PATH=/none $c render scene.toml --to 21 --speed 0.7 --fps 7 "
       "--join parts --out film.mkv");
   CHECK(without.code == 1);
   CHECK(says(without.err, "cannot start ffmpeg: No such file or directory; films need ffmpeg"));
-  const Outcome joined = shell.run(join + "--quiet --out film.mkv && " + kFilm +
+  const Outcome joined = shell.run(join + "--quiet --out film.mkv && " + kJob +
                                    "7 --quiet --out whole.mkv && cmp film.mkv whole.mkv");
   CAPTURE(joined.err);
   CHECK(joined.code == 0);
@@ -229,13 +229,13 @@ TEST_CASE("Film job: parts with another size or frame rate are refused by name")
 TEST_CASE("Film job: a join writes no files beside the parts, and follows a link to another disk") {
   const Shell shell;
   write_film_scene(shell);
-  REQUIRE(shell.run(kFilm + "7 --quiet --out whole.mkv").code == 0);
+  REQUIRE(shell.run(kJob + "7 --quiet --out whole.mkv").code == 0);
   shell.run(
       "mkdir parts && cp whole.mkv parts/000000.mkv && cd parts && echo mine >pieces.txt && "
       "echo mine >joined.mkv && touch -d @0 .");
   // /dev/shm is another file system on most machines.
   const Outcome joined = shell.run(
-      "disk=$(mktemp -d -p /dev/shm || mktemp -d)\nln -s $disk/film.mkv link.mkv\n" + kFilm +
+      "disk=$(mktemp -d -p /dev/shm || mktemp -d)\nln -s $disk/film.mkv link.mkv\n" + kJob +
       "7 --quiet --join parts --out link.mkv; code=$?\n"
       "cmp whole.mkv $disk/film.mkv && ls -A $disk\nrm -r $disk\nexit $code");
   CAPTURE(joined.err);
@@ -280,23 +280,23 @@ TEST_CASE("Film job: the tasks have the start state of the submission") {
 TEST_CASE("Film job: wrong flags are refused") {
   const Shell shell;
   write_film_scene(shell);
-  check_refused(shell, kFilm + "7 --slurm 2 --out film.png", {"one picture needs no tasks"});
-  check_refused(shell, kFilm + "7 --slurm 2 --out film.mp4 --frames 0:60", {"--slurm"});
-  check_refused(shell, kFilm + "7 --slurm 2 --out film.mp4 --join d", {"--slurm"});
-  check_refused(shell, kFilm + "7 --slurm 0 --out film.mp4", {"--slurm: '0' is wrong"});
-  check_refused(shell, kFilm + "7 --time 1:00 --out film.mp4", {"--time requires --slurm"});
-  check_refused(shell, kFilm + "7 --slurm 2 --out none/film.mp4", {"there is no folder none"});
-  check_refused(shell, kFilm + "7 --slurm 2 --out film.avi", {"the format .avi is not supported"});
+  check_refused(shell, kJob + "7 --slurm 2 --out film.png", {"one picture needs no tasks"});
+  check_refused(shell, kJob + "7 --slurm 2 --out film.mp4 --frames 0:60", {"--slurm"});
+  check_refused(shell, kJob + "7 --slurm 2 --out film.mp4 --join d", {"--slurm"});
+  check_refused(shell, kJob + "7 --slurm 0 --out film.mp4", {"--slurm: '0' is wrong"});
+  check_refused(shell, kJob + "7 --time 1:00 --out film.mp4", {"--time requires --slurm"});
+  check_refused(shell, kJob + "7 --slurm 2 --out none/film.mp4", {"there is no folder none"});
+  check_refused(shell, kJob + "7 --slurm 2 --out film.avi", {"the format .avi is not supported"});
   shell.run(
       "mkdir film.mp4 && touch film.webm && chmod a-w film.webm && touch frames film.checkpoint");
-  check_refused(shell, kFilm + "7 --slurm 2 --out film.mp4", {"film.mp4 is a folder"});
-  const Outcome locked = shell.run(kFilm + "7 --slurm 2 --out film.webm");
+  check_refused(shell, kJob + "7 --slurm 2 --out film.mp4", {"film.mp4 is a folder"});
+  const Outcome locked = shell.run(kJob + "7 --slurm 2 --out film.webm");
   CHECK(locked.code == 1);
   CHECK(says(locked.err, "cannot write film.webm: it is write-protected"));
-  CHECK(shell.run(kFilm + "7 --slurm 2 --out frames").code == 1);
+  CHECK(shell.run(kJob + "7 --slurm 2 --out frames").code == 1);
   CHECK_FALSE(std::filesystem::exists(shell.path("frames.slurm")));
   // Checkpoints of other runs do not matter: the tasks have their own.
-  CHECK(shell.run("rm -r film.mp4; " + kFilm + "7 --slurm 2 --dry-run --out film.mp4").code == 0);
+  CHECK(shell.run("rm -r film.mp4; " + kJob + "7 --slurm 2 --dry-run --out film.mp4").code == 0);
   shell.run("rm -r film.mp4.slurm");
   const Outcome none = shell.run(
       "c=$(command -v clatter); PATH=/none $c render scene.toml --slurm 2 --out film.mp4");

@@ -15,22 +15,22 @@ using testing::table_in;
 
 namespace {
 
-using Sample = std::array<std::int16_t, 2>;
+using StereoSample = std::array<std::int16_t, 2>;
 
 // The samples of a WAV file with a header of 44 bytes.
-std::vector<Sample> samples_in(const std::string& bytes) {
+std::vector<StereoSample> samples_in(const std::string& bytes) {
   REQUIRE(bytes.size() > 44);
   CHECK(bytes.substr(0, 4) == "RIFF");
-  std::vector<Sample> samples((bytes.size() - 44) / sizeof(Sample));
-  std::memcpy(samples.data(), bytes.data() + 44, samples.size() * sizeof(Sample));
+  std::vector<StereoSample> samples((bytes.size() - 44) / sizeof(StereoSample));
+  std::memcpy(samples.data(), bytes.data() + 44, samples.size() * sizeof(StereoSample));
   return samples;
 }
 
 // 150 frames, in three pieces. The laws change at t = 4.
-const std::string kFilm =
+const std::string kSoundFilm =
     "clatter render scene.toml --size 64x48 --fps 10 --quiet --speed 1 --sound ";
 
-void write_scene(const Shell& shell) {
+void write_sound_scene(const Shell& shell) {
   write_film_scene(shell, "", "[[change]]\ntime = 4.0\nset = { \"walls.left.stroke\" = 1.0 }\n");
 }
 
@@ -53,7 +53,7 @@ TEST_CASE("Film sound: a click is heard at the sample, on the side and as loud a
               .run("clatter render few.toml --seed 3 --quiet --size 64x48 --fps 7 --from 1 "
                    "--to 30 --speed 0.2 --sound --out d")
               .code == 0);
-  const std::vector<Sample> samples = samples_in(shell.read("d/sound.wav"));
+  const std::vector<StereoSample> samples = samples_in(shell.read("d/sound.wav"));
   CHECK(samples.size() == 145 * 48000);
   const nlohmann::json log = table_in(shell.read("e.csv")).columns;
   const std::vector<double> times = log["time"];
@@ -69,8 +69,8 @@ TEST_CASE("Film sound: a click is heard at the sample, on the side and as loud a
     CAPTURE(times[i]);
     // Silence before the onset.
     const auto begin = samples.begin() + std::max(0L, expected - 4800);
-    const auto onset =
-        std::find_if(begin, samples.end(), [](const Sample& sample) { return sample != Sample{}; });
+    const auto onset = std::find_if(
+        begin, samples.end(), [](const StereoSample& sample) { return sample != StereoSample{}; });
     CHECK(std::abs(onset - samples.begin() - expected) <= 1);
     const double left = (*onset)[0], right = (*onset)[1];
     const bool wall = log["partner_position_x"][i].is_null();
@@ -90,13 +90,13 @@ TEST_CASE("Film sound: a click is heard at the sample, on the side and as loud a
 TEST_CASE(
     "Film sound: each format has an audio stream as long as the film, and pictures as before") {
   const Shell shell;
-  write_scene(shell);
+  write_sound_scene(shell);
   const auto pictures = [&](const std::string& name) {
     return shell.run("ffmpeg -v error -i " + name + " -map 0:v -f framemd5 - | grep -v '#'").out;
   };
   for (const std::string name : {"v.mp4", "v.webm", "v.mkv"}) {
     CAPTURE(name);
-    const Outcome film = shell.run(kFilm + "--to 15 --out " + name);
+    const Outcome film = shell.run(kSoundFilm + "--to 15 --out " + name);
     CAPTURE(film.err);
     REQUIRE(film.code == 0);
     CHECK(shell
@@ -106,8 +106,9 @@ TEST_CASE(
               .out == "48000,2\n");
     const std::string decoded = shell.run("ffmpeg -v error -i " + name + " -f s16le - | wc -c").out;
     CHECK(std::abs(std::stod(decoded) / (4 * 48000) - 15.0) < 0.05);
-    CHECK(shell.run(kFilm.substr(0, kFilm.find("--sound")) + "--to 15 --out silent-" + name).code ==
-          0);
+    CHECK(
+        shell.run(kSoundFilm.substr(0, kSoundFilm.find("--sound")) + "--to 15 --out silent-" + name)
+            .code == 0);
     CHECK(shell.run("ffprobe -v error -show_entries stream=codec_type -of csv=p=0 silent-" + name)
               .out == "video\n");
     const std::string with = pictures(name);
@@ -115,7 +116,7 @@ TEST_CASE(
     CHECK((with == pictures("silent-" + name)));
   }
   // FLAC is lossless.
-  REQUIRE(shell.run(kFilm + "--to 15 --out d").code == 0);
+  REQUIRE(shell.run(kSoundFilm + "--to 15 --out d").code == 0);
   CHECK(shell
             .run("ffmpeg -v error -i v.mkv -f s16le mkv.raw && tail -c +45 d/sound.wav | "
                  "cmp - mkv.raw")
@@ -124,10 +125,10 @@ TEST_CASE(
 
 TEST_CASE("Film sound: a film with sound that was killed is resumed to the same bytes") {
   const Shell shell;
-  write_scene(shell);
+  write_sound_scene(shell);
   for (const std::string out : {"film.mp4", "film"}) {
     CAPTURE(out);
-    const std::string line = kFilm + "--to 15 --out " + out + " ";
+    const std::string line = kSoundFilm + "--to 15 --out " + out + " ";
     REQUIRE(shell.run(line + "&& mv " + out + " kept").code == 0);
     for (const std::string number : {"20", "70", "130"}) {
       CAPTURE(number);
@@ -153,9 +154,9 @@ TEST_CASE("Film sound: a film with sound that was killed is resumed to the same 
 
 TEST_CASE("Film sound: a film that is continued for longer has the sound of one long film") {
   const Shell shell;
-  write_scene(shell);
-  REQUIRE(shell.run(kFilm + "--to 15 --out long").code == 0);
-  REQUIRE(shell.run(kFilm + "--to 7 --out film --checkpoint c").code == 0);
+  write_sound_scene(shell);
+  REQUIRE(shell.run(kSoundFilm + "--to 15 --out long").code == 0);
+  REQUIRE(shell.run(kSoundFilm + "--to 7 --out film --checkpoint c").code == 0);
   CHECK(samples_in(shell.read("film/sound.wav")).size() == 7 * 48000);
   const Outcome outcome =
       shell.run("clatter render scene.toml --quiet --resume c --to 15 --out film");
@@ -166,8 +167,8 @@ TEST_CASE("Film sound: a film that is continued for longer has the sound of one 
 
 TEST_CASE("Film sound: a resumed film whose sound was changed is drawn again") {
   const Shell shell;
-  write_scene(shell);
-  REQUIRE(shell.run(kFilm + "--to 7 --out film --checkpoint c && cp -r film kept").code == 0);
+  write_sound_scene(shell);
+  REQUIRE(shell.run(kSoundFilm + "--to 7 --out film --checkpoint c && cp -r film kept").code == 0);
   shell.run("printf 'xx' | dd of=film/sound.wav bs=1 seek=100000 conv=notrunc 2> /dev/null");
   REQUIRE(shell.run("cmp film/sound.wav kept/sound.wav").code == 1);
   const Outcome outcome = shell.run("clatter render scene.toml --resume c --to 7 --out film");
@@ -178,7 +179,7 @@ TEST_CASE("Film sound: a resumed film whose sound was changed is drawn again") {
 
 TEST_CASE("Film sound: sound that a film cannot have is refused") {
   const Shell shell;
-  write_scene(shell);
+  write_sound_scene(shell);
   const std::string line = "clatter render scene.toml --size 64x48 --sound ";
   check_refused(shell, line + "--out a.gif", {"--sound", "a GIF has no sound"});
   check_refused(shell, line + "--out a.png", {"--sound", "one picture has no sound"});

@@ -5,6 +5,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "tests/app/readers.h"
 #include "tests/app/shell.h"
 #include "tests/app/trajectory_scenes.h"
 
@@ -12,18 +13,6 @@ namespace clatter {
 
 using nlohmann::json;
 using namespace testing;
-
-namespace {
-
-// A file, read by h5py.
-json frames_of(const Shell& shell, const std::string& file) {
-  const Outcome outcome = shell.run(CLATTER_READERS "read_trajectory.py " + file);
-  CAPTURE(outcome.err);  // names a missing module, which ./run test installs
-  REQUIRE(outcome.code == 0);
-  return json::parse(outcome.out).at(file);
-}
-
-}  // namespace
 
 TEST_CASE("H5MD: h5py and MDAnalysis read the states to the bit") {
   struct Case {

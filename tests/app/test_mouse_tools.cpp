@@ -14,10 +14,6 @@ using nlohmann::json;
 
 namespace {
 
-bool halted(const json& status) {
-  return !status["plays"] && status.contains("hash");
-}
-
 json halt(const GuiDriver& driver) {
   const std::size_t told = driver.told();
   driver.key("space");
@@ -35,7 +31,7 @@ json measured(const GuiDriver& driver, const std::string& scene, const json& sta
 }
 
 // Saves the scene of a halted gas. A run of it must give the same bits. Returns its result.
-json check_saved_scene(const GuiDriver& driver, const json& status) {
+json check_saved_run(const GuiDriver& driver, const json& status) {
   const std::size_t told = driver.told();
   driver.key("ctrl+s");
   const json result = measured(driver, driver.wait_for("saved", told)["file"], status);
@@ -79,7 +75,7 @@ TEST_CASE("Mouse tools: a held press heats again and again, and undo removes it 
   const json heat = driver.events("nudge")[0]["nudge"];
   CHECK(heat["scale"] == 1.1);
   CHECK(heat["radius"] == 3.0);
-  CHECK(check_saved_scene(driver, head)["energy"]["nudges_in"]["mean"] > 0.0);
+  CHECK(check_saved_run(driver, head)["energy"]["nudges_in"]["mean"] > 0.0);
 
   told = driver.told();
   driver.key("Home");
@@ -149,7 +145,7 @@ TEST_CASE("Mouse tools: a halted gas is nudged once by a press, however long") {
   driver.key("period");
   const json next = driver.wait_for("status", told, halted);
   CHECK(next["changes"] == 1);
-  check_saved_scene(driver, next);
+  check_saved_run(driver, next);
 }
 
 TEST_CASE("Mouse tools: a kick has the direction of its arrow, and its length in a second") {
@@ -175,7 +171,7 @@ TEST_CASE("Mouse tools: a kick has the direction of its arrow, and its length in
   CHECK(std::fabs(up[0].get<double>()) < 0.03 * speed);
   told = driver.told();
   driver.key("period");
-  check_saved_scene(driver, driver.wait_for("status", told, halted));
+  check_saved_run(driver, driver.wait_for("status", told, halted));
 }
 
 TEST_CASE("Mouse tools: a throw sets the velocity of one disk, and Esc ends the tool") {
@@ -191,7 +187,7 @@ TEST_CASE("Mouse tools: a throw sets the velocity of one disk, and Esc ends the 
   CHECK(nudge.size() == 2);
   told = driver.told();
   driver.key("period");
-  check_saved_scene(driver, driver.wait_for("status", told, halted));
+  check_saved_run(driver, driver.wait_for("status", told, halted));
 
   driver.key("Escape");
   told = driver.told();
@@ -214,7 +210,7 @@ TEST_CASE("Mouse tools: spheres are heated in a ball in the box") {
   }
   const std::size_t told = driver.told();
   driver.key("period");
-  check_saved_scene(driver, driver.wait_for("status", told, halted));
+  check_saved_run(driver, driver.wait_for("status", told, halted));
 }
 
 TEST_CASE("Mouse tools: lecture mode has them, and the pen takes their place") {

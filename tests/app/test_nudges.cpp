@@ -40,9 +40,9 @@ time = 4000.0
 nudge = { centre = [6.0, 5.0], radius = 4.0, scale = 0.5 }
 )";
 
-const std::string kMeasure = "clatter measure nudged.toml --quiet ";
+const std::string kMeasureNudged = "clatter measure nudged.toml --quiet ";
 
-json result_of(const Shell& shell, const std::string& name) {
+json nudged_result(const Shell& shell, const std::string& name) {
   json result = json::parse(shell.read(name));
   result.erase("performance");
   return result;
@@ -53,8 +53,8 @@ json result_of(const Shell& shell, const std::string& name) {
 TEST_CASE("Nudges: a film and a measurement have the same state, and other than without") {
   const Shell shell;
   shell.write("nudged.toml", kNudged);
-  REQUIRE(shell.run(kMeasure + "--until 8 --out run.json").code == 0);
-  const json run = result_of(shell, "run.json");
+  REQUIRE(shell.run(kMeasureNudged + "--until 8 --out run.json").code == 0);
+  const json run = nudged_result(shell, "run.json");
   // The last of these frames is at time 8.
   REQUIRE(shell
               .run("clatter render nudged.toml --speed 1 --fps 4 --to 8.25 --size 160x120 --quiet "
@@ -68,8 +68,8 @@ TEST_CASE("Nudges: a film and a measurement have the same state, and other than 
   for (const char* law : {"mass", "momentum", "energy"}) {
     CHECK(run.at("balance").at(law).get<double>() < 1e-10);
   }
-  REQUIRE(shell.run(kMeasure + "--until 8 --set change=[] --out quiet.json").code == 0);
-  const json quiet = result_of(shell, "quiet.json");
+  REQUIRE(shell.run(kMeasureNudged + "--until 8 --set change=[] --out quiet.json").code == 0);
+  const json quiet = nudged_result(shell, "quiet.json");
   CHECK(quiet.at("state_hash") != run.at("state_hash"));
   CHECK_FALSE(quiet.at("energy").contains("nudges_in"));
 }
@@ -77,11 +77,11 @@ TEST_CASE("Nudges: a film and a measurement have the same state, and other than 
 TEST_CASE("Nudges: a killed measurement ends in the same result") {
   const Shell shell;
   shell.write("nudged.toml", kNudged);
-  const std::string line = kMeasure + "--until 8000 ";
+  const std::string line = kMeasureNudged + "--until 8000 ";
   REQUIRE(shell.run(line + "--out whole.json").code == 0);
   REQUIRE(cut_off(shell, line + "--out part.json", "KILL").code == 137);
   REQUIRE(shell.run(line + "--resume c --out resumed.json").code == 0);
-  CHECK(result_of(shell, "resumed.json") == result_of(shell, "whole.json"));
+  CHECK(nudged_result(shell, "resumed.json") == nudged_result(shell, "whole.json"));
 }
 
 TEST_CASE("Nudges: an impossible one is refused at its place") {

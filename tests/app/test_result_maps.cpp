@@ -12,6 +12,7 @@
 #include "engine/error.h"
 #include "tests/app/check_same.h"
 #include "tests/app/expected_values.h"
+#include "tests/app/readers.h"
 #include "tests/app/shell.h"
 #include "tests/app/tables.h"
 #include "tests/app/witnessed_run.h"
@@ -47,20 +48,13 @@ std::map<std::string, json> maps_of(const std::vector<std::vector<Numbers>>& sum
 }
 
 // The numbers of nested lists, in order.
-json flat(const json& values) {
+json numbers_in(const json& values) {
   if (!values.is_array()) return json::array({values});
   json all = json::array();
   for (const json& part : values) {
-    for (const json& value : flat(part)) all.push_back(value);
+    for (const json& value : numbers_in(part)) all.push_back(value);
   }
   return all;
-}
-
-json read(const Shell& shell, const std::string& reader, const std::string& file) {
-  const Outcome outcome = shell.run(CLATTER_READERS + reader + " " + file);
-  CAPTURE(outcome.err);
-  REQUIRE(outcome.code == 0);
-  return json::parse(outcome.out);
 }
 
 template <int D>
@@ -165,7 +159,7 @@ void check_maps() {
   for (std::size_t k = 0; k < names.size(); ++k) maps[names[k]] = residuals.equations[k];
   check_maps_csv<D>(shell, maps);
 
-  const json image = read(shell, "read_vtk.py", "fields.vti");
+  const json image = read_by(shell, "read_vtk.py", "fields.vti");
   json dimensions = {1, 1, 1}, spacing = {1.0, 1.0, 1.0};
   for (int axis = 0; axis < D; ++axis) {
     dimensions[axis] = Vessel<D>::cells[axis] + 1;
@@ -180,13 +174,13 @@ void check_maps() {
   check_arrays<D>(image.at("arrays"), maps);
   CHECK(says(shell.read("fields.vti"), "<!-- who made it; units, a: particle diameter"));
 
-  const json file = read(shell, "read_hdf5.py", "r.h5");
+  const json file = read_by(shell, "read_hdf5.py", "r.h5");
   for (const auto& [name, map] : maps) {
     CAPTURE(name);
     const json& dataset = file.at("maps").at(name);
     CHECK(dataset.at("units") == unit_of_map<D>(name));
     CHECK(extents(dataset.at("values")) == cells_from_last<D>());
-    check_same(flat(dataset.at("values")), map);
+    check_same(numbers_in(dataset.at("values")), map);
   }
   CHECK(file.at("maps").size() == maps.size() + D + 1);
   check_same(file.at("maps").at("time"),
@@ -194,7 +188,7 @@ void check_maps() {
   check_edges<D>(file.at("maps"));
 
   // 512 windows, 8 per part.
-  const json series = read(shell, "read_vtk.py", "series.pvd");
+  const json series = read_by(shell, "read_vtk.py", "series.pvd");
   REQUIRE(series.size() == 64);
   CHECK(file.at("map_series").size() == fields<D>().size() + D + 1);
   check_edges<D>(file.at("map_series"));
@@ -211,7 +205,7 @@ void check_maps() {
       if (part == 0) CHECK(dataset.at("units") == unit_of_map<D>(name));
       const json& values = dataset.at("values")[part];
       CHECK(extents(values) == cells_from_last<D>());
-      check_same(flat(values), map);
+      check_same(numbers_in(values), map);
     }
   }
 }
@@ -223,7 +217,7 @@ void check_hdf5() {
       {.cpu_seconds = 2.5, .wall_seconds = 3.25, .collisions = 40, .peak_memory_bytes = 96});
   const Shell shell;
   write_hdf5(shell.path("r.h5"), result, run.measured);
-  json file = read(shell, "read_hdf5.py", "r.h5");
+  json file = read_by(shell, "read_hdf5.py", "r.h5");
   const auto dataset = [](const json& values, const char* unit) {
     return json{{"values", values}, {"units", unit}};
   };

@@ -39,10 +39,10 @@ std::vector<std::string> names_of(const Chart& chart) {
   return names;
 }
 
-using Line = std::vector<std::pair<double, double>>;
+using Points = std::vector<std::pair<double, double>>;
 
-Line points_of(const ChartLine& line) {
-  Line points;
+Points points_of(const ChartLine& line) {
+  Points points;
   for (const Vec2& place : line.points) points.emplace_back(place[0], place[1]);
   return points;
 }
@@ -201,20 +201,20 @@ TEST_CASE("Sweep plot: a theory has one line per series, or one for all if it de
   CHECK(chart.lines[0].style == LineStyle::Dotted);
   CHECK_FALSE(chart.lines[0].series.has_value());
   CHECK(points_of(chart.lines[0]) ==
-        Line{{0.8, 1.0}, {0.8, 1.0}, {0.9, 2.0}, {0.9, 2.0}, {0.95, 4.0}, {0.95, 4.0}});
+        Points{{0.8, 1.0}, {0.8, 1.0}, {0.9, 2.0}, {0.9, 2.0}, {0.95, 4.0}, {0.95, 4.0}});
   CHECK(chart.lines[1].name == "refined theory");
   CHECK(chart.lines[1].style == LineStyle::Dashed);
   CHECK(chart.lines[1].series == std::size_t{0});
-  CHECK(points_of(chart.lines[1]) == Line{{0.8, 1.0}, {0.9, 2.0}, {0.95, 4.0}});
+  CHECK(points_of(chart.lines[1]) == Points{{0.8, 1.0}, {0.9, 2.0}, {0.95, 4.0}});
   CHECK(chart.lines[2].series == std::size_t{1});
-  CHECK(points_of(chart.lines[2]) == Line{{0.8, 10.0}, {0.9, 20.0}, {0.95, 40.0}});
+  CHECK(points_of(chart.lines[2]) == Points{{0.8, 10.0}, {0.9, 20.0}, {0.95, 40.0}});
 
   // Further factors apply to the theory too. A point without theory is not part of the line.
   rows[1].erase(refined);
   const Chart scaled =
       chart_of(table_of(rows), kAxes, {.x = plot.x, .y = "temperature/2", .theory = true});
   REQUIRE(scaled.lines.size() == 3);
-  CHECK(points_of(scaled.lines[1]) == Line{{0.8, 0.5}, {0.9, 1.0}});
+  CHECK(points_of(scaled.lines[1]) == Points{{0.8, 0.5}, {0.9, 1.0}});
   // No theory predicts 1/T times T, or another column.
   CHECK(chart_of(table_of(rows), kAxes, {.x = plot.x, .y = "1/temperature", .theory = true})
             .lines.empty());
@@ -228,8 +228,8 @@ TEST_CASE("Sweep plot: two theories at one x are two lines, even if both togethe
   const Chart chart = chart_of(table_of(rows), kAxes,
                                {.x = "particles.restitution", .y = "temperature", .theory = true});
   REQUIRE(chart.lines.size() == 2);
-  CHECK(points_of(chart.lines[0]) == Line{{0.8, 1.0}, {0.9, 3.0}});
-  CHECK(points_of(chart.lines[1]) == Line{{0.8, 2.0}, {0.9, 4.0}});
+  CHECK(points_of(chart.lines[0]) == Points{{0.8, 1.0}, {0.9, 3.0}});
+  CHECK(points_of(chart.lines[1]) == Points{{0.8, 2.0}, {0.9, 4.0}});
 }
 
 TEST_CASE("Sweep plot: the ratio of spin and translation has its own theory") {
@@ -246,8 +246,9 @@ TEST_CASE("Sweep plot: the ratio of spin and translation has its own theory") {
   const std::vector<ChartLine> ratio = lines("spin_temperature/temperature");
   REQUIRE(ratio.size() == 1);
   CHECK(ratio[0].name == "kinetic theory");
-  CHECK(points_of(ratio[0]) == Line{{0.8, 0.25}, {0.9, 0.25}});
-  CHECK(points_of(lines("3*spin_temperature/temperature").at(0)) == Line{{0.8, 0.75}, {0.9, 0.75}});
+  CHECK(points_of(ratio[0]) == Points{{0.8, 0.25}, {0.9, 0.25}});
+  CHECK(points_of(lines("3*spin_temperature/temperature").at(0)) ==
+        Points{{0.8, 0.75}, {0.9, 0.75}});
   CHECK(lines("spin_temperature").empty());
   CHECK(lines("temperature/spin_temperature").size() == 1);  // of the temperature
 }

@@ -19,10 +19,6 @@ using nlohmann::json;
 
 namespace {
 
-bool halted(const json& status) {
-  return !status["plays"] && status.contains("hash");
-}
-
 // The hash of a run without a window at the time of a status.
 json hash_of_run(const GuiDriver& driver, const std::string& scene, const json& status) {
   char line[256];

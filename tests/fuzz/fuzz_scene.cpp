@@ -57,6 +57,17 @@ std::vector<std::string> keys_of_scenes() {
   return keys;
 }
 
+// A list of changes by one nudge of a region or of a particle.
+std::string extreme_nudges(std::minstd_rand& random) {
+  const std::string region =
+      random() % 2 ? "centre = " + extreme_list(random) + ", radius = " + extreme_number(random)
+                   : "particle = " + std::to_string(random() % 4);
+  constexpr std::array kMeans = {"scale = ", "add = ", "set = "};
+  const std::size_t means = random() % kMeans.size();
+  const std::string value = means == 0 ? extreme_number(random) : extreme_list(random);
+  return "[{ time = 0.1, nudge = { " + region + ", " + kMeans[means] + value + " } }]";
+}
+
 std::string extreme_value(std::minstd_rand& random) {
   constexpr std::array<const char*, 20> kWords = {
       "static",   "driven", "thermal",  "sawtooth",  "sinusoidal", "exact",  "snapshot",
@@ -86,6 +97,20 @@ std::string narrow_box(std::minstd_rand& random) {
     sides += std::string(", ") + kSides[random() % kSides.size()];
   }
   return "[" + sides + "]";
+}
+
+std::string extreme_setting(const std::vector<std::string>& keys, std::minstd_rand& random) {
+  switch (random() % 8) {
+    case 0:
+      return "box.size=" + narrow_box(random);
+    case 1:
+      return "change=" + extreme_nudges(random);
+    case 2:
+      return "view.captions=[{ text = 'T_{0} v^2', from = " + extreme_number(random) +
+             ", to = " + extreme_number(random) + " }]";
+    default:
+      return keys[random() % keys.size()] + "=" + extreme_value(random);
+  }
 }
 
 // The settings of a text, in order.
@@ -193,12 +218,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   std::minstd_rand random(seed);
   random.discard(2);
   if (random() % 4 == 0) return LLVMFuzzerMutate(data, size, most);
-  std::string line = "\n" + std::string(kSetting);
-  if (random() % 8) {
-    line += keys[random() % keys.size()] + "=" + extreme_value(random);
-  } else {
-    line += "box.size=" + narrow_box(random);
-  }
+  const std::string line = "\n" + std::string(kSetting) + extreme_setting(keys, random);
   if (size + line.size() > most) return LLVMFuzzerMutate(data, size, most);
   std::memcpy(data + size, line.data(), line.size());
   return size + line.size();

@@ -11,10 +11,10 @@ namespace clatter {
 
 namespace {
 
-constexpr Size kSize{800, 600};
+constexpr Size kEyeSize{800, 600};
 
 Projection projection(const Orbit& orbit, double width = 20.0) {
-  return {{{1.0, 2.0}, width, orbit}, kSize};
+  return {{{1.0, 2.0}, width, orbit}, kEyeSize};
 }
 
 }  // namespace
@@ -87,8 +87,8 @@ TEST_CASE("Eye: a fitted camera shows all points, and one of them at the margin"
   for (const double view_angle : {0.0, 25.0, 90.0}) {
     CAPTURE(view_angle);
     const Orbit angles{.azimuth = 33.0, .elevation = 21.0, .view_angle = view_angle};
-    const Camera camera = fit_orbit({4.0, 3.0, 1.0}, points, angles, kSize, margins);
-    const Eye eye(Projection{camera, kSize});
+    const Camera camera = fit_orbit({4.0, 3.0, 1.0}, points, angles, kEyeSize, margins);
+    const Eye eye(Projection{camera, kEyeSize});
     CHECK((eye.centre() - Vec3(4.0, 3.0, 1.0)).norm() < 1e-12);
     double room = HUGE_VAL;
     for (const Vec3& point : points) {

@@ -22,7 +22,7 @@ using testing::says;
 
 namespace {
 
-constexpr Size kSize{640, 480};
+constexpr Size kGeometrySize{640, 480};
 constexpr double kFastest = 4.0;  // end of the colours' range
 
 // A gas between walls. Disks are drawn one fifth smaller, so that none touches another.
@@ -111,7 +111,7 @@ std::vector<Spot> spots_in(const Image& image, const Vec2& low, const Vec2& high
 // Differences between the picture and the snapshot; empty: none.
 std::string disagreement(const Image& image, const Snapshot& snapshot, const Camera& camera) {
   constexpr double kOff = 0.3;  // pixels; the size of a spot is a whole number of pixels
-  const Projection projection{camera, kSize};
+  const Projection projection{camera, kGeometrySize};
   const Vec2 line(3.0, 3.0);  // the faces of the walls
   std::vector<Spot> spots =
       spots_in(image, projection.pixels({0.0, 0.0}) + line, projection.pixels(snapshot.box) - line);
@@ -141,15 +141,15 @@ void check_geometry(Backend backend) {
   const View view = white_view();
   for (const int samples : {1, 2}) {
     Renderer renderer(context->gl(), samples);
-    const Camera camera = renderer.fit(snapshot, kSize, view, {});
-    const Canvas canvas(context->gl(), kSize);
+    const Camera camera = renderer.fit(snapshot, kGeometrySize, view, {});
+    const Canvas canvas(context->gl(), kGeometrySize);
     const auto disagreement_with = [&](const Snapshot& drawn) {
       canvas.bind();
-      renderer.draw(drawn, camera, kSize, view, {});
+      renderer.draw(drawn, camera, kGeometrySize, view, {});
       return disagreement(canvas.read(), snapshot, camera);
     };
     CHECK(disagreement_with(snapshot) == "");
-    const double pixel = camera.width / kSize.width;
+    const double pixel = camera.width / kGeometrySize.width;
     for (const int i : {0, 17, 79}) {
       for (const Vec2& shift : {Vec2(pixel, 0.0), Vec2(0.0, -pixel)}) {
         Snapshot moved = snapshot;

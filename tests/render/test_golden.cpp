@@ -132,7 +132,7 @@ constexpr std::array kGolden = {Golden{"driven", R"(
         camera = [{ time = 0.0 }, { time = 4.0, centre = [4.0, 5.0, 3.0], width = 14.0, azimuth = -60.0, elevation = 20.0 }])",
                                        2.0}};
 
-constexpr Size kSize{320, 240};
+constexpr Size kGoldenSize{320, 240};
 
 Image drawn(const Golden& golden, const Gl& gl) {
   const Scene scene = parse_scene(golden.scene, golden.name);
@@ -144,10 +144,11 @@ Image drawn(const Golden& golden, const Gl& gl) {
   });
   const OverlayText text{scene.title, scene.caption};
   Renderer renderer(gl);
-  const Canvas canvas(gl, kSize);
+  const Canvas canvas(gl, kGoldenSize);
   canvas.bind();
-  const Camera whole = renderer.fit(snapshot, kSize, scene.view, text);
-  renderer.draw(snapshot, camera_at(scene.view.camera, snapshot, whole), kSize, scene.view, text);
+  const Camera whole = renderer.fit(snapshot, kGoldenSize, scene.view, text);
+  renderer.draw(snapshot, camera_at(scene.view.camera, snapshot, whole), kGoldenSize, scene.view,
+                text);
   return canvas.read();
 }
 
@@ -246,11 +247,11 @@ TEST_CASE("Golden pictures: a disk a quarter of a pixel off is detected") {
   run.run_until(golden.time);
   Snapshot snapshot = run.snapshot();
   Renderer renderer(context->gl());
-  const Camera camera = renderer.fit(snapshot, kSize, scene.view, {});
-  snapshot.positions(0, 7) += 0.25 * camera.width / kSize.width;
-  const Canvas canvas(context->gl(), kSize);
+  const Camera camera = renderer.fit(snapshot, kGoldenSize, scene.view, {});
+  snapshot.positions(0, 7) += 0.25 * camera.width / kGoldenSize.width;
+  const Canvas canvas(context->gl(), kGoldenSize);
   canvas.bind();
-  renderer.draw(snapshot, camera, kSize, scene.view, {});
+  renderer.draw(snapshot, camera, kGoldenSize, scene.view, {});
   CHECK(wrong_pixels(read_png(file_of(golden)), canvas.read()) > 0);
 }
 

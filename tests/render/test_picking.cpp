@@ -9,7 +9,7 @@ namespace clatter {
 
 namespace {
 
-constexpr Size kSize{800, 600};
+constexpr Size kPickingSize{800, 600};
 
 // A box that is periodic along x, with spheres at random places; some overlap.
 Snapshot some_spheres() {
@@ -58,7 +58,7 @@ TEST_CASE("Picking: the sphere in front is the first that a line of sight meets"
   int hits = 0, hidden = 0;
   for (const double view_angle : {0.0, 40.0}) {
     const Camera camera{{3.0, 2.5}, 9.0, {2.0, 50.0, -25.0, view_angle, {0.02, -0.01}}};
-    const Eye eye({camera, kSize});
+    const Eye eye({camera, kPickingSize});
     for (const bool cut : {false, true}) {
       for (int k = 0; k < 100; ++k) {
         const Vec2 pixel(200.0 + 400.0 * share(random), 100.0 + 400.0 * share(random));
@@ -97,7 +97,7 @@ TEST_CASE("Picking: a faint part beyond a periodic border is picked where nothin
   Snapshot snapshot;
   snapshot.box = Vec3(6.0, 6.0, 6.0);
   snapshot.positions = Vec3(0.2, 3.0, 3.0);
-  const Eye eye({{{3.0, 3.0}, 8.0, {.z = 3.0}}, kSize});  // 100 pixels a diameter, 3 at 400
+  const Eye eye({{{3.0, 3.0}, 8.0, {.z = 3.0}}, kPickingSize});  // 100 pixels a diameter, 3 at 400
   CHECK(particle_at(snapshot, eye, {400.0 - 320.0, 300.0}, {}) == 0u);
   CHECK(particle_at(snapshot, eye, {400.0 + 290.0, 300.0}, {}) == 0u);
   CHECK_FALSE(particle_at(snapshot, eye, {400.0 - 335.0, 300.0}, {}));
@@ -111,14 +111,14 @@ TEST_CASE("Picking: nothing behind the viewer is picked, and a disk needs no dep
   snapshot.positions.resize(3, 2);
   snapshot.positions << 3.0, 3.0, 3.0, 3.0, 50.0, 10.0;
   // Half the width of 8 under 45 degrees: the viewer is 4 before z = 12.
-  const Eye eye({{{3.0, 3.0}, 8.0, {.z = 12.0, .view_angle = 90.0}}, kSize});
+  const Eye eye({{{3.0, 3.0}, 8.0, {.z = 12.0, .view_angle = 90.0}}, kPickingSize});
   CHECK(particle_at(snapshot, eye, {400.0, 300.0}, {}) == 1u);
 
   Snapshot disks;
   disks.box = Vec2(6.0, 6.0);
   disks.positions.resize(2, 2);
   disks.positions << 1.0, 4.0, 2.0, 5.0;
-  const Eye above({{{3.0, 3.0}, 8.0}, kSize});
+  const Eye above({{{3.0, 3.0}, 8.0}, kPickingSize});
   CHECK(particle_at(disks, above, {400.0 + 149.0, 300.0 + 200.0}, {}) == 1u);
   CHECK_FALSE(particle_at(disks, above, {400.0 + 151.0, 300.0 + 200.0}, {}));
 }

@@ -20,7 +20,7 @@ using namespace clatter::testing;
 
 namespace {
 
-constexpr std::uint64_t kSeed = 5;
+constexpr std::uint64_t kForesightSeed = 5;
 
 // Gases with every feature of the engine, in boxes that divide into several tiles.
 const char* const kScenes[] = {
@@ -145,13 +145,13 @@ Outcome outcome_of(Simulation<D>& simulation, bool observed, int halts, std::uin
 // Runs a scene as a whole, and in tiles of random sizes on different numbers of threads.
 template <int D>
 void compare_ways(const Scene& scene, bool observed) {
-  const Model<D> model = model_of<D>(scene, kSeed);
-  const State<D> start = start_state<D>(scene, kSeed);
+  const Model<D> model = model_of<D>(scene, kForesightSeed);
+  const State<D> start = start_state<D>(scene, kForesightSeed);
   const auto count = static_cast<std::uint64_t>(start.positions.size());
   constexpr int kHalts = 6;
   Simulation<D> whole(model, start);
   const Outcome wanted = outcome_of(whole, observed, kHalts, 6 * count);
-  Random random(kSeed, Stream::Kick, 1, 1);
+  Random random(kForesightSeed, Stream::Kick, 1, 1);
   std::uint64_t redone = 0;
   for (const int threads : {1, 2, 3}) {
     CAPTURE(threads);
@@ -194,7 +194,7 @@ TEST_CASE("Foresight: simultaneous collisions in several tiles have the order of
     start.positions.push_back({1.0 + 2.0 * (i % 30), 1.25 + 2.0 * (i / 30)});
     start.velocities.push_back(directions[(i + i / 30) % 4]);
   }
-  Random random(kSeed, Stream::Kick, 2, 2);
+  Random random(kForesightSeed, Stream::Kick, 2, 2);
   for (std::size_t i = start.positions.size() - 1; i > 0; --i) {
     const std::size_t j = random.below(i + 1);
     std::swap(start.positions[i], start.positions[j]);
@@ -212,8 +212,8 @@ TEST_CASE("Foresight: simultaneous collisions in several tiles have the order of
 
 TEST_CASE("Foresight: a saved run continues with the same bits on another number of threads") {
   const Scene scene = parse_scene(kScenes[2], "a scene");
-  const Model<2> model = model_of<2>(scene, kSeed);
-  const State<2> start = start_state<2>(scene, kSeed);
+  const Model<2> model = model_of<2>(scene, kForesightSeed);
+  const State<2> start = start_state<2>(scene, kForesightSeed);
   Simulation<2> whole(model, start);
   const Outcome wanted = outcome_of(whole, false, 3, 9000);
   Simulation<2> first(model, start);
@@ -232,8 +232,8 @@ TEST_CASE("Foresight: a collapsing gas stops at the same collision as without ti
   const Scene scene = parse_scene(R"(box.size = [60, 60]
       particles = { area_fraction = 0.3, restitution = 0.3 })",
                                   "a scene");
-  const Model<2> model = model_of<2>(scene, kSeed);
-  const State<2> start = start_state<2>(scene, kSeed);
+  const Model<2> model = model_of<2>(scene, kForesightSeed);
+  const State<2> start = start_state<2>(scene, kForesightSeed);
   const auto end = [&](bool tiles) {
     Simulation<2> simulation(model, start);
     if (tiles) simulation.use_threads(2, {.particles = 200.0, .collisions = 2.0, .halo = 8.0});

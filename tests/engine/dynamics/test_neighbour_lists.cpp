@@ -184,13 +184,13 @@ TEST_CASE("NeighbourLists: of two neighbours each is listed by the other, at any
   Random random(72, Stream::Placement, 0, 0);
   Model<3> model;
   model.box.setConstant(30.0);
+  const double reach = 1.01 + 2.0 * radius_of(model, 10000.0);
   int met = 0, unequal = 0;
   constexpr int kPairs = 400000;
   for (int i = 0; i < kPairs; i += 1000) {
     NeighbourLists<3> lists(model, 10000.0);
     for (std::uint32_t k = 0; k < 1000; k += 2) {
       // Positions along x of one pair for each row of the box.
-      const double reach = 1.01 + 2.0 * radius_of(model, 10000.0);
       const Vec<3> r(5.0 + 10.0 * random.uniform(), 30.0 * random.uniform(),
                      30.0 * random.uniform());
       Vec<3> way(random.normal(), random.normal(), random.normal());

@@ -13,7 +13,7 @@ using namespace clatter::testing;
 
 namespace {
 
-struct BaseMoves : Observer<2> {
+struct MovesOfBase : Observer<2> {
   int count = 0;
   void on_base_moved(double) override { ++count; }
 };
@@ -28,7 +28,7 @@ TEST_CASE("Timers: they fire at start + count * interval, all of them, across ba
   for (const double from : {0.0, 1e9}) {
     CAPTURE(from);
     Simulation<2> simulation(driven_box(), random_gas(driven_box(), 20, 111), from);
-    BaseMoves moves;
+    MovesOfBase moves;
     simulation.add_observer(moves);
     std::vector<double> times;
     int late = 0;

@@ -48,13 +48,13 @@ std::vector<std::pair<std::size_t, std::size_t>> kept(const State<D>& before, co
 }
 
 /// A scene, and the least number of particles that keep their positions in it.
-struct Case {
+struct Adaptation {
   Scene scene;
   std::size_t least;
 };
 
 template <int D>
-void check_places(const Scene& first, const std::vector<Case>& cases) {
+void check_places(const Scene& first, const std::vector<Adaptation>& cases) {
   const State<D> before = start_state<D>(first, 3);
   for (const auto& [scene, least] : cases) {
     CAPTURE(scene.particles.count);
@@ -82,7 +82,7 @@ void check_spins(const Vec<D>& size) {
 
 /// T/9 = 1 +- `width` of 1490 vectors of normal numbers; five of these.
 template <int D>
-void check_temperature(const Vec<D>& size, double width) {
+void check_adapted_temperature(const Vec<D>& size, double width) {
   State<D> before = start_state<D>(box<D>(10, size), 4);
   for (Vec<D>& v : before.velocities) v *= 3.0;
   const State<D> now = adapt_to_scene(before, box<D>(1500, size), 4);
@@ -126,8 +126,8 @@ TEST_CASE("Adapted state: particles that stay keep their spins, others have none
 }
 
 TEST_CASE("Adapted state: added particles have the temperature of the gas") {
-  check_temperature<2>({60.0, 60.0}, 0.026);
-  check_temperature<3>({20.0, 20.0, 20.0}, 0.021);
+  check_adapted_temperature<2>({60.0, 60.0}, 0.026);
+  check_adapted_temperature<3>({20.0, 20.0, 20.0}, 0.021);
 }
 
 TEST_CASE("Adapted state: without room at random places, the gas starts as the scene says") {

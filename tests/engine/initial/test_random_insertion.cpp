@@ -149,7 +149,7 @@ void check_jamming(double edge, double reached, double out_of_reach) {
 }
 
 template <int D>
-void check_seeds(const Room<D>& room) {
+void check_insertion_seeds(const Room<D>& room) {
   Random random = placement(63);
   CHECK(random_insertion(room, 0, random).empty());
   CHECK(random_insertion(room, 1, random).size() == 1);
@@ -227,6 +227,6 @@ TEST_CASE("Random insertion: it gives up where it jams, and not before") {
 }
 
 TEST_CASE("Random insertion: another seed gives other places") {
-  check_seeds<2>({{6.0, 6.0}, {true, false}});
-  check_seeds<3>({{4.0, 4.0, 4.0}, {true, false, true}});
+  check_insertion_seeds<2>({{6.0, 6.0}, {true, false}});
+  check_insertion_seeds<3>({{4.0, 4.0, 4.0}, {true, false, true}});
 }

@@ -19,14 +19,14 @@ using namespace clatter::testing;
 
 namespace {
 
-struct Case {
+struct StartCase {
   double fraction;
   const char* how;
 };
 
 /// One case for each method of a random layout.
 template <int D>
-std::vector<Case> cases() {
+std::vector<StartCase> cases() {
   if (D == 2) {
     return {{0.1, "insertion"}, {0.3, "insertion"}, {0.5, "insertion"},
             {0.6, "melting"},   {0.69, "melting"},  {0.75, "lattice"}};
@@ -153,7 +153,7 @@ void check_gaussian(const std::vector<Vector>& vectors, int component, double va
 template <int D>
 void check_no_overlap(const std::vector<std::array<bool, D>>& walls) {
   for (const std::array<bool, D>& walled : walls) {
-    for (const Case& c : cases<D>()) {
+    for (const StartCase& c : cases<D>()) {
       const Scene scene = scene_of<D>(c.fraction, walled);
       CAPTURE(c.fraction);
       CAPTURE(c.how);
@@ -198,7 +198,7 @@ void check_velocities() {
 
 template <int D>
 void check_seeds() {
-  for (const Case& c : cases<D>()) {
+  for (const StartCase& c : cases<D>()) {
     CAPTURE(c.fraction);
     const Scene scene = channel<D>(c.fraction);
     const State<D> state = start_state<D>(scene, 74);
@@ -300,7 +300,7 @@ void check_still_spins() {
 
 template <int D>
 void check_moving_walls() {
-  for (const Case& c : cases<D>()) {
+  for (const StartCase& c : cases<D>()) {
     // The free region of the other cases, surrounded by the range of the walls.
     std::array<bool, D> walled;
     walled.fill(true);
@@ -354,7 +354,7 @@ int looks_until(const Scene& scene, int yes) {
 
 template <int D>
 void check_interrupted() {
-  for (const Case& c : cases<D>()) {
+  for (const StartCase& c : cases<D>()) {
     CAPTURE(c.fraction);
     CAPTURE(c.how);
     const Scene scene = scene_of<D>(c.fraction, {});
@@ -389,7 +389,7 @@ int pauses_of(const Scene& scene) {
 
 template <int D>
 void check_pauses() {
-  for (const Case& c : cases<D>()) {
+  for (const StartCase& c : cases<D>()) {
     CAPTURE(c.fraction);
     CAPTURE(c.how);
     const int pauses = pauses_of<D>(scene_of<D>(c.fraction, {}));

@@ -258,18 +258,19 @@ Scene with_spins(Scene scene) {
   return scene;
 }
 
-const Wall kDriven = {.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 1.2};
-const Wall kLossy = {.kind = WallKind::Static, .restitution = 0.8};
-const Wall kThermal = {.kind = WallKind::Thermal, .temperature = 1.5};
-const Wall kSawtooth = {.kind = WallKind::Sawtooth, .stroke = 0.4, .frequency = 1.7, .phase = 0.2};
-const Wall kSinusoidal = {
+const Wall kDrivenSide = {.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 1.2};
+const Wall kLossySide = {.kind = WallKind::Static, .restitution = 0.8};
+const Wall kThermalSide = {.kind = WallKind::Thermal, .temperature = 1.5};
+const Wall kSawtoothSide = {
+    .kind = WallKind::Sawtooth, .stroke = 0.4, .frequency = 1.7, .phase = 0.2};
+const Wall kSinusoidalSide = {
     .kind = WallKind::Sinusoidal, .restitution = 0.95, .stroke = 0.6, .frequency = 0.9};
 
 }  // namespace
 
 template <int D>
 static void check_driven_and_lossy() {
-  check_identities<D>(boxed<D>(kDriven, kLossy), 81);
+  check_identities<D>(boxed<D>(kDrivenSide, kLossySide), 81);
 }
 
 TEST_CASE("First moments of the fields: smooth particles between driven and lossy walls") {
@@ -281,7 +282,7 @@ template <int D>
 static void check_half_walled() {
   for (int axis = 0; axis < D; ++axis) {
     Scene scene = periodic<D>();
-    wall_in(scene, axis, kDriven);
+    wall_in(scene, axis, kDrivenSide);
     check_identities<D>(scene, 82);
     check_identities<D>(with_spins(scene), 83);
   }
@@ -294,7 +295,7 @@ TEST_CASE("First moments of the fields: periodic axes beside a walled one") {
 
 template <int D>
 static void check_rough() {
-  check_identities<D>(with_spins(boxed<D>(kDriven, kLossy)), 84);
+  check_identities<D>(with_spins(boxed<D>(kDrivenSide, kLossySide)), 84);
 }
 
 TEST_CASE("First moments of the fields: rough particles and walls") {
@@ -303,20 +304,20 @@ TEST_CASE("First moments of the fields: rough particles and walls") {
 }
 
 template <int D>
-static void check_gravity() {
-  Scene scene = boxed<D>(kLossy, kDriven);
+static void check_gravity_identities() {
+  Scene scene = boxed<D>(kLossySide, kDrivenSide);
   scene.gravity = Vec<3>(0.3, -0.8, 0.4).head<D>();
   check_identities<D>(scene, 85);
 }
 
 TEST_CASE("First moments of the fields: gravity") {
-  check_gravity<2>();
-  check_gravity<3>();
+  check_gravity_identities<2>();
+  check_gravity_identities<3>();
 }
 
 template <int D>
 static void check_bulk_drive() {
-  Scene scene = boxed<D>(kLossy, kLossy);
+  Scene scene = boxed<D>(kLossySide, kLossySide);
   scene.bulk_drive = {.interval = 0.13, .kick_speed = 0.3};
   check_identities<D>(scene, 86);
   scene.bulk_drive->kick_spin = 0.5;
@@ -330,8 +331,8 @@ TEST_CASE("First moments of the fields: bulk driving") {
 
 template <int D>
 static void check_thermal() {
-  check_identities<D>(boxed<D>(kThermal, kThermal), 88);
-  check_identities<D>(with_spins(boxed<D>(kThermal, kDriven)), 89);
+  check_identities<D>(boxed<D>(kThermalSide, kThermalSide), 88);
+  check_identities<D>(with_spins(boxed<D>(kThermalSide, kDrivenSide)), 89);
 }
 
 TEST_CASE("First moments of the fields: thermal walls") {
@@ -340,21 +341,21 @@ TEST_CASE("First moments of the fields: thermal walls") {
 }
 
 template <int D>
-static void check_moving_walls() {
-  check_identities<D>(boxed<D>(kSawtooth, kSinusoidal), 90);
-  check_identities<D>(boxed<D>(kSinusoidal, kSawtooth), 91);
+static void check_moving_identities() {
+  check_identities<D>(boxed<D>(kSawtoothSide, kSinusoidalSide), 90);
+  check_identities<D>(boxed<D>(kSinusoidalSide, kSawtoothSide), 91);
 }
 
 TEST_CASE("First moments of the fields: saw-tooth and sinusoidal walls") {
-  check_moving_walls<2>();
-  check_moving_walls<3>();
+  check_moving_identities<2>();
+  check_moving_identities<3>();
 }
 
 template <int D>
-static void check_everything() {
-  Scene scene = with_spins(boxed<D>(kSawtooth, kSinusoidal));
-  scene.walls[kRight] = kThermal;
-  scene.walls[kTop] = kDriven;
+static void check_all_identities() {
+  Scene scene = with_spins(boxed<D>(kSawtoothSide, kSinusoidalSide));
+  scene.walls[kRight] = kThermalSide;
+  scene.walls[kTop] = kDrivenSide;
   scene.gravity = Vec<3>(-0.2, -0.5, 0.3).head<D>();
   scene.bulk_drive = {.interval = 0.31, .kick_speed = 0.2, .kick_spin = 0.2};
   scene.contact_time = 0.01;
@@ -362,6 +363,6 @@ static void check_everything() {
 }
 
 TEST_CASE("First moments of the fields: everything at once") {
-  check_everything<2>();
-  check_everything<3>();
+  check_all_identities<2>();
+  check_all_identities<3>();
 }

@@ -20,8 +20,6 @@ namespace {
 using Plane = std::integral_constant<int, 2>;
 using Space = std::integral_constant<int, 3>;
 
-constexpr double kPi = std::numbers::pi;
-
 // Sum of density times width over the bins.
 double total(const ResultTable& table) {
   const TableColumn low = column_of(table, "low"), high = column_of(table, "high");
@@ -36,7 +34,8 @@ double total(const ResultTable& table) {
 // An elastic gas of 500 particles in equilibrium.
 template <int D>
 Scene elastic_gas() {
-  const double side = D == 2 ? std::sqrt(500.0 * kPi / (4.0 * 0.05)) : std::cbrt(500.0 * kPi / 0.3);
+  const double side = D == 2 ? std::sqrt(500.0 * std::numbers::pi / (4.0 * 0.05))
+                             : std::cbrt(500.0 * std::numbers::pi / 0.3);
   return gas(VecX::Constant(D, side), 500, 1.0);
 }
 
@@ -128,7 +127,7 @@ TEST_CASE_TEMPLATE("Free flights: means of a dilute gas are those of kinetic the
   const Scene scene = elastic_gas<D>();
   const Measured measured = observed<D>(scene, {}, ObservableKind::FreeFlights, 1500.0, 4);
   const double phi = scene.packing_fraction();
-  const double cross_section = D == 2 ? 2.0 : kPi;
+  const double cross_section = D == 2 ? 2.0 : std::numbers::pi;
   const double path = 1.0 / (std::sqrt(2.0) * 500.0 / scene.box.prod() * cross_section *
                              contact_correlation(phi, D));
   const Estimate mean_path = mean_of(measured, "free_flights.mean_path");
@@ -165,9 +164,10 @@ TEST_CASE_TEMPLATE("Collisions: impact parameters and speeds of an elastic gas",
   CHECK(counts_p(found, expected) > kMinProbability);
   CHECK(errors_off(mean_of(measured, "collisions.mean_impact_parameter"), D == 2 ? 0.5 : 2.0 / 3) <
         5.0);
-  CHECK(errors_off(mean_of(measured, "collisions.mean_normal_speed"), std::sqrt(kPi)) < 5.0);
+  CHECK(errors_off(mean_of(measured, "collisions.mean_normal_speed"), std::sqrt(std::numbers::pi)) <
+        5.0);
   CHECK(errors_off(mean_of(measured, "collisions.mean_tangential_speed"),
-                   D == 2 ? 2.0 / std::sqrt(kPi) : std::sqrt(kPi)) < 5.0);
+                   D == 2 ? 2.0 / std::sqrt(std::numbers::pi) : std::sqrt(std::numbers::pi)) < 5.0);
   CHECK_THROWS(mean_of(measured, "collisions.mean_energy_loss"));
   CHECK_THROWS(mean_of(measured, "collisions.sliding_share"));
 }
@@ -293,9 +293,9 @@ TEST_CASE("Wall hits: each wall has its own speeds and energy gains") {
   };
   // Binning changes the mean by less than 1 %, the sample by 1 %.
   CHECK(mean_speed("wall_hits.left.outgoing") ==
-        doctest::Approx(std::sqrt(kPi * 0.5 / 2.0)).epsilon(0.04));
+        doctest::Approx(std::sqrt(std::numbers::pi * 0.5 / 2.0)).epsilon(0.04));
   CHECK(mean_speed("wall_hits.right.outgoing") ==
-        doctest::Approx(std::sqrt(kPi * 4.0 / 2.0)).epsilon(0.04));
+        doctest::Approx(std::sqrt(std::numbers::pi * 4.0 / 2.0)).epsilon(0.04));
   for (const std::string wall :
        {"wall_hits.left", "wall_hits.right", "wall_hits.bottom", "wall_hits.top"}) {
     CAPTURE(wall);

@@ -15,8 +15,6 @@ namespace {
 using Plane = std::integral_constant<int, 2>;
 using Space = std::integral_constant<int, 3>;
 
-constexpr double kPi = std::numbers::pi;
-
 // Shortest distance over all periodic images within one period.
 template <int D>
 double distance(const Model<D>& model, const Vec<D>& a, const Vec<D>& b) {
@@ -74,8 +72,9 @@ TEST_CASE_TEMPLATE("Radial distribution: counts all pairs of all samples", Dimen
     for (std::size_t bin = 0; bin < counts.size() && !walls; ++bin) {
       CAPTURE(bin);
       const double low = 1.0 + width * static_cast<double>(bin), high = low + width;
-      const double shell = D == 2 ? kPi * (high * high - low * low)
-                                  : 4.0 / 3.0 * kPi * (std::pow(high, 3) - std::pow(low, 3));
+      const double shell =
+          D == 2 ? std::numbers::pi * (high * high - low * low)
+                 : 4.0 / 3.0 * std::numbers::pi * (std::pow(high, 3) - std::pow(low, 3));
       CHECK(g.values[bin] ==
             doctest::Approx(counts[bin] / (3.0 * 60.0 * 59.0 / 2.0 * shell / scene.box.prod()))
                 .epsilon(1e-9));
@@ -145,12 +144,12 @@ TEST_CASE("Radial distribution: g at contact is the theory's, within 0.5 %" *
     CHECK(contact.standard_error < 0.002 * expected);
     CHECK(contact.mean == doctest::Approx(expected).epsilon(0.005));
   };
-  const double side = std::sqrt(2000.0 * kPi / (4.0 * 0.3));
+  const double side = std::sqrt(2000.0 * std::numbers::pi / (4.0 * 0.3));
   check(mean_of(observed<2>(gas(side, side, 2000, 1.0), measure, ObservableKind::RadialDistribution,
                             3000.0, 1),
                 "radial_distribution.contact"),
         contact_correlation(0.3, 2));
-  const double edge = std::cbrt(2000.0 * kPi / (6.0 * 0.2));
+  const double edge = std::cbrt(2000.0 * std::numbers::pi / (6.0 * 0.2));
   check(mean_of(observed<3>(gas(Vec<3>(edge, edge, edge), 2000, 1.0), measure,
                             ObservableKind::RadialDistribution, 1500.0, 1),
                 "radial_distribution.contact"),

@@ -62,8 +62,8 @@ ObservableResult ideal_gas(const Scene& scene, const RadialProfileSettings& sett
 
 }  // namespace
 
-// Distances reach the size of the box, so that most pairs feel the walls. Sample: 64 x 20 states of
-// 60 points. Each g is within 5 standard errors of 1, and the mean over a slab within 2 %.
+// Distances reach the size of the box, so that most pairs feel the walls. Sample: 64 x 4 states of
+// 150 points. Each g is within 5 standard errors of 1, and the mean over a slab within 2 %.
 TEST_CASE_TEMPLATE("Radial distribution profile: an ideal gas has g = 1 in each slab", Dimension,
                    Plane, Space) {
   constexpr int D = Dimension::value;
@@ -71,13 +71,13 @@ TEST_CASE_TEMPLATE("Radial distribution profile: an ideal gas has g = 1 in each 
     for (const int walls : {0, 1, 2}) {
       CAPTURE(axis);
       CAPTURE(walls);
-      Scene scene = gas(D == 2 ? VecX(Vec2(9.0, 7.0)) : VecX(Vec<3>(6.0, 7.0, 5.0)), 60, 1.0);
+      Scene scene = gas(D == 2 ? VecX(Vec2(9.0, 7.0)) : VecX(Vec<3>(6.0, 7.0, 5.0)), 150, 1.0);
       if (walls > 0) wall_in(scene, axis, {.kind = WallKind::Static});
       if (walls > 1) wall_in(scene, 1 - axis / (D - 1), {.kind = WallKind::Static});
       const RadialProfileSettings settings = {
           .interval = 1.0, .range = 30.0, .bins = 8, .axis = static_cast<Axis>(axis), .slabs = 5};
       const ObservableResult result =
-          ideal_gas<D>(scene, settings, {4.0, 1.0, 2.0, 1.0, 3.0}, 64, 20);
+          ideal_gas<D>(scene, settings, {4.0, 1.0, 2.0, 1.0, 3.0}, 64, 4);
       const TableColumn g = column_of(result.tables[0], "g");
       REQUIRE(g.values.size() == 40);
       for (std::size_t slab = 0; slab < 5; ++slab) {

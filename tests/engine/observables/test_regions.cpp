@@ -15,8 +15,8 @@ namespace {
 using Plane = std::integral_constant<int, 2>;
 using Space = std::integral_constant<int, 3>;
 
-constexpr double kInterval = 0.7;
-constexpr int kSamples = 60;
+constexpr double kRegionInterval = 0.7;
+constexpr int kRegionSamples = 60;
 
 // Velocities of the particles between two corners.
 template <int D>
@@ -51,7 +51,7 @@ TEST_CASE_TEMPLATE("Probe: the series has density, temperature and velocity of e
     CAPTURE(at_wall);
     VecX lower = 0.25 * scene.box, upper = 0.75 * scene.box;
     Measure measure;
-    measure.probe.interval = kInterval;
+    measure.probe.interval = kRegionInterval;
     if (at_wall) {
       lower = VecX::Zero(D);
       lower[1] = 1.5;
@@ -60,15 +60,15 @@ TEST_CASE_TEMPLATE("Probe: the series has density, temperature and velocity of e
       measure.probe.region = {lower, upper};
     }
     const Measured measured =
-        observed<D>(scene, measure, ObservableKind::Probe, kSamples * kInterval, 3);
+        observed<D>(scene, measure, ObservableKind::Probe, kRegionSamples * kRegionInterval, 3);
     const ResultTable table = table_of(measured, "probe.series");
     const auto simulation = simulation_of<D>(scene, 3);
     const double volume = (upper - lower).prod();
     double number = 0.0, square = 0.0, freedoms = 0.0, energy = 0.0, along = 0.0;
-    REQUIRE(table.columns[0].values.size() == kSamples);
-    for (std::size_t k = 0; k < kSamples; ++k) {
+    REQUIRE(table.columns[0].values.size() == kRegionSamples);
+    for (std::size_t k = 0; k < kRegionSamples; ++k) {
       CAPTURE(k);
-      const double time = static_cast<double>(k + 1) * kInterval;
+      const double time = static_cast<double>(k + 1) * kRegionInterval;
       simulation->run_until(time);
       const auto inside = velocities_in<D>(simulation->state(), lower, upper);
       const auto count = static_cast<double>(inside.size());
@@ -92,10 +92,10 @@ TEST_CASE_TEMPLATE("Probe: the series has density, temperature and velocity of e
       energy += squares;
       freedoms += D * (count - 1.0);
     }
-    const double mean = number / kSamples;
+    const double mean = number / kRegionSamples;
     CHECK(mean_of(measured, "probe.density").mean == doctest::Approx(mean / volume));
     CHECK(mean_of(measured, "probe.number_variance").mean ==
-          doctest::Approx(square / kSamples - mean * mean).epsilon(1e-9));
+          doctest::Approx(square / kRegionSamples - mean * mean).epsilon(1e-9));
     CHECK(mean_of(measured, "probe.temperature").mean ==
           doctest::Approx(energy / freedoms).epsilon(1e-9));
     CHECK(mean_of(measured, "probe.velocity_x").mean ==

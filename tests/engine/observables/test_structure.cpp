@@ -17,9 +17,8 @@ namespace {
 using Plane = std::integral_constant<int, 2>;
 using Space = std::integral_constant<int, 3>;
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kInterval = 2.0;
-constexpr int kSamples = 5;
+constexpr double kStructureInterval = 2.0;
+constexpr int kStructureSamples = 5;
 
 // A gas between two walls, periodic along the other axes, with sides without symmetry.
 template <int D>
@@ -33,8 +32,8 @@ Scene slab() {
 template <int D, class Visit>
 void at_samples(const Scene& scene, std::uint64_t seed, const Visit& visit) {
   const auto simulation = simulation_of<D>(scene, seed);
-  for (int sample = 1; sample <= kSamples; ++sample) {
-    simulation->run_until(sample * kInterval);
+  for (int sample = 1; sample <= kStructureSamples; ++sample) {
+    simulation->run_until(sample * kStructureInterval);
     visit(simulation->state());
   }
 }
@@ -59,12 +58,12 @@ TEST_CASE_TEMPLATE("Structure factor: it is that of all samples", Dimension, Pla
   const Scene scene = slab<D>();
   Measure measure;
   measure.structure_factor = {
-      .interval = kInterval, .range = D == 2 ? 1.0 : 1.5, .bins = 1, .vectors = 20};
+      .interval = kStructureInterval, .range = D == 2 ? 1.0 : 1.5, .bins = 1, .vectors = 20};
   const ResultTable table = table_of(
       observed<D>(scene, measure, ObservableKind::StructureFactor, 10.0, 3), "structure_factor");
-  std::vector<Vec<D>> vectors = {2.0 * kPi / scene.box[0] * Vec<D>::UnitX()};
+  std::vector<Vec<D>> vectors = {2.0 * std::numbers::pi / scene.box[0] * Vec<D>::UnitX()};
   if constexpr (D == 3) {
-    const Vec<D> z = 2.0 * kPi / scene.box[2] * Vec<D>::UnitZ();
+    const Vec<D> z = 2.0 * std::numbers::pi / scene.box[2] * Vec<D>::UnitZ();
     vectors.insert(vectors.end(), {z, vectors[0] + z, vectors[0] - z});
   }
   double length = 0.0, expected = 0.0;
@@ -73,7 +72,8 @@ TEST_CASE_TEMPLATE("Structure factor: it is that of all samples", Dimension, Pla
     at_samples<D>(scene, 3, [&](const State<D>& state) {
       std::complex<double> density = 0.0;
       for (const Vec<D>& position : state.positions) density += std::polar(1.0, k.dot(position));
-      expected += std::norm(density) / 40.0 / kSamples / static_cast<double>(vectors.size());
+      expected +=
+          std::norm(density) / 40.0 / kStructureSamples / static_cast<double>(vectors.size());
     });
   }
   REQUIRE(column_of(table, "vectors").values ==
@@ -86,7 +86,7 @@ TEST_CASE_TEMPLATE("Structure factor: it is that of all samples", Dimension, Pla
 // standard error of 3 %. At k = .3, S is higher by a few percent.
 TEST_CASE("Structure factor: long waves have the theory's compressibility") {
   constexpr double kPhi = 0.3;
-  const double side = std::sqrt(2000.0 * kPi / (4.0 * kPhi));
+  const double side = std::sqrt(2000.0 * std::numbers::pi / (4.0 * kPhi));
   Measure measure;
   measure.structure_factor = {.interval = 2.0, .range = 0.3, .bins = 1, .vectors = 8};
   const ResultTable table = table_of(
@@ -105,7 +105,7 @@ TEST_CASE_TEMPLATE("Clusters: sizes are those of all samples", Dimension, Plane,
   constexpr double kRange = D == 2 ? 1.4 : 1.3;
   const Scene scene = slab<D>();
   Measure measure;
-  measure.clusters = {.interval = kInterval, .range = kRange};
+  measure.clusters = {.interval = kStructureInterval, .range = kRange};
   const Measured measured = observed<D>(scene, measure, ObservableKind::Clusters, 10.0, 3);
   const Model<D> model = model_of<D>(scene, 3);
   std::vector<double> counts(41, 0.0);
@@ -133,9 +133,10 @@ TEST_CASE_TEMPLATE("Clusters: sizes are those of all samples", Dimension, Plane,
     }
     largest += static_cast<double>(most);
   });
-  CHECK(mean_of(measured, "clusters.number").mean == doctest::Approx(number / kSamples));
-  CHECK(mean_of(measured, "clusters.largest").mean == doctest::Approx(largest / kSamples));
-  CHECK(mean_of(measured, "clusters.mean_size").mean == doctest::Approx(mean_size / kSamples));
+  CHECK(mean_of(measured, "clusters.number").mean == doctest::Approx(number / kStructureSamples));
+  CHECK(mean_of(measured, "clusters.largest").mean == doctest::Approx(largest / kStructureSamples));
+  CHECK(mean_of(measured, "clusters.mean_size").mean ==
+        doctest::Approx(mean_size / kStructureSamples));
   const ResultTable sizes = table_of(measured, "clusters.size");
   const TableColumn low = column_of(sizes, "low"), high = column_of(sizes, "high");
   double particles = 0.0;
@@ -143,13 +144,13 @@ TEST_CASE_TEMPLATE("Clusters: sizes are those of all samples", Dimension, Plane,
     double expected = 0.0;
     for (auto size = static_cast<std::size_t>(low.values[bin]);
          size < static_cast<std::size_t>(high.values[bin]) && size < counts.size(); ++size) {
-      expected += counts[size] / kSamples;
+      expected += counts[size] / kStructureSamples;
       particles += static_cast<double>(size) * counts[size];
     }
     CHECK(column_of(sizes, "density").values[bin] * (high.values[bin] - low.values[bin]) ==
           doctest::Approx(expected));
   }
-  CHECK(particles == 40.0 * kSamples);
+  CHECK(particles == 40.0 * kStructureSamples);
   // Parts without samples have no row.
   const ResultTable growth = table_of(measured, "clusters.growth");
   CHECK(column_of(growth, "time").values == std::vector<double>{2.0, 4.0, 6.0, 8.0, 10.0});
@@ -160,7 +161,8 @@ TEST_CASE_TEMPLATE("Clusters: sizes are those of all samples", Dimension, Plane,
 TEST_CASE("Bond order: psi_6 is that of all samples") {
   const Scene scene = slab<2>();
   Measure measure;
-  measure.bond_order = {{.interval = kInterval, .longest = 2.0 * kInterval, .lags = 2}, 1.5};
+  measure.bond_order = {
+      {.interval = kStructureInterval, .longest = 2.0 * kStructureInterval, .lags = 2}, 1.5};
   const Measured measured = observed<2>(scene, measure, ObservableKind::BondOrder, 10.0, 3);
   const Model<2> model = model_of<2>(scene, 3);
   double local = 0.0, global = 0.0;
@@ -180,10 +182,10 @@ TEST_CASE("Bond order: psi_6 is that of all samples") {
     }
     std::complex<double> mean = 0.0;
     for (const std::complex<double>& order : orders) {
-      local += std::abs(order) / 40.0 / kSamples;
+      local += std::abs(order) / 40.0 / kStructureSamples;
       mean += order / 40.0;
     }
-    global += std::abs(mean) / kSamples;
+    global += std::abs(mean) / kStructureSamples;
     all.push_back(orders);
   });
   CHECK(mean_of(measured, "bond_order.local").mean == doctest::Approx(local));
@@ -192,10 +194,10 @@ TEST_CASE("Bond order: psi_6 is that of all samples") {
   CHECK(column_of(table, "time").values == std::vector<double>{0.0, 2.0, 4.0});
   for (std::size_t lag = 0; lag < 3; ++lag) {
     double expected = 0.0;
-    for (std::size_t sample = lag; sample < kSamples; ++sample) {
+    for (std::size_t sample = lag; sample < kStructureSamples; ++sample) {
       for (std::size_t i = 0; i < 40; ++i) {
         expected += (std::conj(all[sample - lag][i]) * all[sample][i]).real() / 40.0 /
-                    static_cast<double>(kSamples - lag);
+                    static_cast<double>(kStructureSamples - lag);
       }
     }
     CHECK(column_of(table, "correlation").values[lag] == doctest::Approx(expected));

@@ -38,7 +38,7 @@ double encounter(const Flight<2>& a, const Flight<2>& b, const Vec2& shift, doub
 }
 
 // Two particles in a box of 10 x 8, after a few collision times, at most one image apart.
-Pair random_pair(std::uint32_t number) {
+Pair random_flights(std::uint32_t number) {
   Random random(11, Stream::Placement, number, 0);
   const auto image = [&] { return static_cast<double>(random.below(3)) - 1.0; };
   Pair pair;
@@ -59,7 +59,7 @@ double distance(const Pair& p, double time, const Vec2& gravity = kNone) {
   return (p.a.at(time, gravity) - p.b.at(time, gravity) + p.shift).norm();
 }
 
-std::uint64_t bits(double x) {
+std::uint64_t bit_pattern(double x) {
   return std::bit_cast<std::uint64_t>(x);
 }
 
@@ -68,11 +68,11 @@ std::uint64_t bits(double x) {
 TEST_CASE("Encounter: exchanging the particles changes no bit") {
   int different = 0, meetings = 0;
   for (std::uint32_t i = 0; i < 100000; ++i) {
-    const Pair p = random_pair(i);
+    const Pair p = random_flights(i);
     for (const Vec2& gravity : kGravities) {
       const double one = encounter(p.a, p.b, p.shift, 1.0, gravity);
       const double other = encounter(p.b, p.a, -p.shift, 1.0, gravity);
-      different += bits(one) != bits(other);
+      different += bit_pattern(one) != bit_pattern(other);
       meetings += std::isfinite(one);
     }
   }
@@ -86,7 +86,7 @@ TEST_CASE("Encounter: particles are one diameter apart at contact, and farther b
   for (const Vec2& gravity : kGravities) {
     double worst = 0.0, missed = 0.0;
     for (std::uint32_t i = 0; i < 100000; ++i) {
-      const Pair p = random_pair(i);
+      const Pair p = random_flights(i);
       const double time = encounter(p.a, p.b, p.shift, 1.0, gravity);
       const double start = later_start(p);
       // Falling particles later are so far away that rounding errors dominate.
@@ -105,7 +105,7 @@ TEST_CASE("Encounter: particles are one diameter apart at contact, and farther b
 
 TEST_CASE("Encounter: particles that never meet stay apart, and touching ones are recognised") {
   for (std::uint32_t i = 0; i < 100000; ++i) {
-    const Pair p = random_pair(i);
+    const Pair p = random_flights(i);
     const double time = encounter(p.a, p.b, p.shift);
     if (std::isfinite(time)) continue;
     const double start = later_start(p);
@@ -163,7 +163,7 @@ TEST_CASE("Encounter: scaling by powers of two changes no bit") {
     for (const int speed : {-30, 5, 30}) {
       const double l = std::ldexp(1.0, length), s = std::ldexp(1.0, speed);
       for (std::uint32_t i = 0; i < 10000; ++i) {
-        const Pair p = random_pair(i);
+        const Pair p = random_flights(i);
         Pair q = p;
         for (Flight<2>* flight : {&q.a, &q.b}) {
           flight->r *= l;
@@ -171,8 +171,8 @@ TEST_CASE("Encounter: scaling by powers of two changes no bit") {
           flight->time *= l / s;
         }
         q.shift *= l;
-        different +=
-            bits(encounter(q.a, q.b, q.shift, l)) != bits(encounter(p.a, p.b, p.shift) * (l / s));
+        different += bit_pattern(encounter(q.a, q.b, q.shift, l)) !=
+                     bit_pattern(encounter(p.a, p.b, p.shift) * (l / s));
       }
     }
   }
@@ -194,7 +194,7 @@ struct Crowd {
     std::vector<Vec2> images;
     for (int i = 0; i <= size; ++i) {
       Particle<2> particle;
-      particle.flight = random_pair(1000 * number + static_cast<std::uint32_t>(i)).a;
+      particle.flight = random_flights(1000 * number + static_cast<std::uint32_t>(i)).a;
       images.push_back({image(), image()});
       particle.image = packed_image<2>(images.back());
       particles.push_back(particle);
@@ -243,7 +243,7 @@ template <bool kFalling, bool kShifted>
 #endif
 
 bool same(const FirstContact& a, const FirstContact& b) {
-  return bits(a.time) == bits(b.time) && a.unique == b.unique &&
+  return bit_pattern(a.time) == bit_pattern(b.time) && a.unique == b.unique &&
          (!a.unique || a.time == kNever || a.candidate == b.candidate);
 }
 
@@ -286,7 +286,7 @@ TEST_CASE(
         const FirstContact& first = answers[asked == size ? 0 : 1];
         const auto earliest = std::min_element(crowd.times.begin(), crowd.times.begin() + asked);
         const double expected = asked > 0 ? *earliest : kNever;
-        different += bits(first.time) != bits(expected);
+        different += bit_pattern(first.time) != bit_pattern(expected);
         touching += first.time == kTouching;
         REQUIRE(first.unique == (expected != kTouching));
         if (!std::isfinite(expected)) continue;
@@ -340,7 +340,7 @@ TEST_CASE("Contact kernel: it says whether the first contact is unique; later on
     if (copy == copied || copy == alone.candidate) continue;
     crowd.candidates.neighbours[copy] = crowd.candidates.neighbours[copied];
     const FirstContact first = first_of(crowd, kNone)[0];
-    REQUIRE(bits(first.time) == bits(alone.time));
+    REQUIRE(bit_pattern(first.time) == bit_pattern(alone.time));
     REQUIRE(first.unique == (copied != alone.candidate));
     (copied == alone.candidate ? first_shared : later_shared) += 1;
   }

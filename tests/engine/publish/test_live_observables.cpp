@@ -15,7 +15,7 @@ using namespace clatter::testing;
 
 namespace {
 
-constexpr double kEnd = 40.0;
+constexpr double kLiveEnd = 40.0;
 
 // Windows of averages have the length 0.5. The gas has walls, so that the mean velocity is not 0.
 Scene observed_gas(int dimension) {
@@ -36,7 +36,7 @@ std::shared_ptr<const std::vector<ResultTable>> tables_of(WatchedRun& run) {
   return frame.observables;
 }
 
-void go_to(WatchedRun& run, double time) {
+void move_to(WatchedRun& run, double time) {
   REQUIRE(run.run_until(time, kNoLimit, kNoLimit));
 }
 
@@ -64,13 +64,13 @@ TEST_CASE("Live observables: they have the tables of a measurement of the same t
     const Scene scene = observed_gas(dimension);
     const auto run = watched_run(scene, 7);
     run->show_profile(Profiled::Fields, Axis::X);
-    go_to(*run, kEnd);
+    move_to(*run, kLiveEnd);
     const auto tables = tables_of(*run);
     REQUIRE(tables != nullptr);
     const auto measured = with_dimension(dimension, [&](auto d) {
       const auto simulation = simulation_of<d()>(scene, 7);
-      Measurement<d()> measurement(*simulation, scene.measure, kEnd);
-      simulation->run_until(kEnd);
+      Measurement<d()> measurement(*simulation, scene.measure, kLiveEnd);
+      simulation->run_until(kLiveEnd);
       return measurement.result();
     });
     check_tables(*tables, measured.tables(), [](double a, double b) {
@@ -83,17 +83,17 @@ TEST_CASE("Live observables: another profile or view leaves them as they are") {
   const Scene scene = observed_gas(2);
   const auto plain = watched_run(scene, 7), disturbed = watched_run(scene, 7);
   plain->show_profile(Profiled::Fields, Axis::X);
-  go_to(*plain, kEnd);
-  go_to(*disturbed, 7.3);
+  move_to(*plain, kLiveEnd);
+  move_to(*disturbed, 7.3);
   disturbed->show_profile(Profiled::Balances, Axis::Y);
-  go_to(*disturbed, 14.1);
+  move_to(*disturbed, 14.1);
   View view = scene.view;
   view.trails = 1.0;
   view.window = 9.0;
   disturbed->show(view);
-  go_to(*disturbed, 20.0);
+  move_to(*disturbed, 20.0);
   disturbed->show_profile(Profiled::Fields, Axis::X);
-  go_to(*disturbed, kEnd);
+  move_to(*disturbed, kLiveEnd);
   check_tables(*tables_of(*disturbed), *tables_of(*plain),
                [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); });
 }
@@ -101,10 +101,10 @@ TEST_CASE("Live observables: another profile or view leaves them as they are") {
 TEST_CASE("Live observables: they start again when laws change") {
   const auto run = watched_run(observed_gas(2), 7);
   run->show_profile(Profiled::Fields, Axis::X);
-  go_to(*run, 10.0);
+  move_to(*run, 10.0);
   run->settle();
   run->change({{"particles.restitution", "0.5"}}, 0.0);
-  go_to(*run, kEnd + 0.4);
+  move_to(*run, kLiveEnd + 0.4);
   for (const ResultTable& table : *tables_of(*run)) {
     if (table.name != "probe.series") continue;
     CHECK(column_of(table, "time").values.front() == doctest::Approx(11.0));
@@ -114,7 +114,7 @@ TEST_CASE("Live observables: they start again when laws change") {
 
 TEST_CASE("Live observables: frames have none unless scene and plots ask for them") {
   const auto closed = watched_run(observed_gas(2), 7);
-  go_to(*closed, 5.0);
+  move_to(*closed, 5.0);
   CHECK(tables_of(*closed) == nullptr);
   closed->show_profile(Profiled::Fields, Axis::X);
   CHECK(tables_of(*closed) != nullptr);
@@ -122,6 +122,6 @@ TEST_CASE("Live observables: frames have none unless scene and plots ask for the
   scene.measure.observables.clear();
   const auto without = watched_run(scene, 7);
   without->show_profile(Profiled::Fields, Axis::X);
-  go_to(*without, 5.0);
+  move_to(*without, 5.0);
   CHECK(tables_of(*without) == nullptr);
 }

@@ -19,7 +19,7 @@ using namespace clatter::testing;
 
 namespace {
 
-constexpr std::uint64_t kSeed = 21;
+constexpr std::uint64_t kNudgeSeed = 21;
 
 const std::string kDisks =
     "box.size = [12, 10]\nparticles = { count = 40, restitution = 0.9 }\n"
@@ -41,7 +41,7 @@ Scene nudged() {
 std::uint64_t hash_of_scene(const Frame& frame, double time) {
   Scene scene = *frame.started;
   scene.changes = frame.scene->changes;
-  ScheduledRun<2> alone(parse_scene(scene_to_toml(scene), "saved.toml"), kSeed);
+  ScheduledRun<2> alone(parse_scene(scene_to_toml(scene), "saved.toml"), kNudgeSeed);
   alone.run_until(time);
   return alone.simulation().state_hash();
 }
@@ -51,9 +51,9 @@ template <int D>
 State<D> velocities_after(const std::string& nudge, State<D>& before) {
   const std::string box = D == 2 ? "[20, 20]" : "[20, 20, 20]";
   const std::string gas = "box.size = " + box + "\nparticles.count = 30\n";
-  ScheduledRun<D> plain(parse_scene(gas, ""), kSeed);
+  ScheduledRun<D> plain(parse_scene(gas, ""), kNudgeSeed);
   ScheduledRun<D> run(parse_scene(gas + "[[change]]\ntime = 1\nnudge = " + nudge + "\n", ""),
-                      kSeed);
+                      kNudgeSeed);
   plain.run_until(1.0);
   run.run_until(1.0);
   before = plain.simulation().state();
@@ -143,7 +143,7 @@ TEST_CASE("Nudge: add gives a region the momentum of its particles, and set that
 
 TEST_CASE("Nudge: the ledger and all balances stay closed, and its energy has its own sum") {
   const Scene scene = nudged();
-  ScheduledRun<2> run(scene, kSeed);
+  ScheduledRun<2> run(scene, kNudgeSeed);
   run.run_until(2.5);
   Totals<2> totals(run.simulation());
   Balance<2> balance(run.simulation(), IntVec<2>(4, 3));
@@ -162,26 +162,26 @@ TEST_CASE("Nudge: the ledger and all balances stay closed, and its energy has it
 
 TEST_CASE("Nudge: halts, a saved scene and a run continued at any event change no bit") {
   const Scene scene = nudged();
-  ScheduledRun<2> whole(scene, kSeed);
+  ScheduledRun<2> whole(scene, kNudgeSeed);
   whole.run_until(6.0);
-  ScheduledRun<2> again(parse_scene(scene_to_toml(scene), "again.toml"), kSeed);
+  ScheduledRun<2> again(parse_scene(scene_to_toml(scene), "again.toml"), kNudgeSeed);
   again.show(scene.view);
   for (std::uint64_t steps = 1; !again.run_until(6.0, kNoLimit, steps); ++steps) {
   }
   CHECK(again.simulation().state_hash() == whole.simulation().state_hash());
   REQUIRE(whole.simulation().counts().nudges == 3);
 
-  ScheduledRun<2> halted(scene, kSeed);
+  ScheduledRun<2> halted(scene, kNudgeSeed);
   bool arrived = false;
   while (!arrived) {
     arrived = halted.run_until(6.0, kNoLimit, halted.simulation().counts().steps() + 7);
-    ScheduledRun<2> rest(scene, kSeed, halted.simulation().save());
+    ScheduledRun<2> rest(scene, kNudgeSeed, halted.simulation().save());
     rest.run_until(6.0);
     CHECK(rest.simulation().state_hash() == whole.simulation().state_hash());
   }
   Scene other = scene;
   other.changes.pop_back();
-  ScheduledRun<2> without(other, kSeed);
+  ScheduledRun<2> without(other, kNudgeSeed);
   without.run_until(6.0);
   CHECK(without.simulation().state_hash() != whole.simulation().state_hash());
 }
@@ -191,9 +191,9 @@ TEST_CASE(
   const Scene scene = nudged();
   Scene first_part = scene;
   first_part.changes.clear();
-  ScheduledRun<2> before(first_part, kSeed);
+  ScheduledRun<2> before(first_part, kNudgeSeed);
   before.run_until(2.0);
-  ScheduledRun<2> rest(scene, kSeed, before.simulation().save()), whole(scene, kSeed);
+  ScheduledRun<2> rest(scene, kNudgeSeed, before.simulation().save()), whole(scene, kNudgeSeed);
   rest.run_until(6.0);
   whole.run_until(6.0);
   CHECK(rest.simulation().state_hash() == whole.simulation().state_hash());
@@ -201,7 +201,7 @@ TEST_CASE(
 
 TEST_CASE("Nudge: time travel returns to the bits before and after it") {
   const Scene scene = nudged();
-  const auto run = watched_run(scene, kSeed);
+  const auto run = watched_run(scene, kNudgeSeed);
   const auto hash_at = [&](double time) {
     run->go_back(time);
     while (run->time() < time) run->run_until(time, kNoLimit, run->counts().steps() + 100);
@@ -211,7 +211,7 @@ TEST_CASE("Nudge: time travel returns to the bits before and after it") {
   };
   run->run_until(6.0, kNoLimit, kNoLimit);
   for (const double time : {5.0, 1.9, 2.0, 3.3, 3.2, 0.5, 4.4}) {
-    ScheduledRun<2> fresh(scene, kSeed);
+    ScheduledRun<2> fresh(scene, kNudgeSeed);
     fresh.run_until(time);
     CHECK(hash_at(time) == fresh.simulation().state_hash());
   }
@@ -222,7 +222,7 @@ TEST_CASE("Nudge: tiles change no bit") {
       "box.size = [60, 60]\nparticles.count = 900\n"
       "[[change]]\ntime = 0.4\nnudge = { centre = [30.0, 30.0], radius = 8.0, scale = 3.0 }\n";
   const Scene scene = parse_scene(gas, "");
-  ScheduledRun<2> one(scene, kSeed), two(scene, kSeed);
+  ScheduledRun<2> one(scene, kNudgeSeed), two(scene, kNudgeSeed);
   two.simulation().use_threads(2, TileSizes{.particles = 100, .collisions = 1.0, .halo = 4.0});
   one.run_until(1.5);
   two.run_until(0.4);
@@ -240,7 +240,7 @@ TEST_CASE("Nudge: a velocity beyond the largest stops the run, and the state rem
   for (int i = 0; i < 8; ++i) {
     text += "[[change]]\ntime = 1\nnudge = { centre = [6, 5], radius = 9, scale = 1000 }\n";
   }
-  ScheduledRun<2> run(parse_scene(text, ""), kSeed);
+  ScheduledRun<2> run(parse_scene(text, ""), kNudgeSeed);
   CHECK_THROWS_AS(run.run_until(2.0), PhysicalStop);
   CHECK(run.simulation().counts().nudges < 8);
   CHECK(std::isfinite(run.simulation().kinetic_energy()));
@@ -253,9 +253,9 @@ TEST_CASE("Nudge: a particle may be thrown faster than walls could drive it") {
       "walls.left = { kind = 'driven', drive_speed = 1.0 }\nwalls.right = { kind = 'static' }\n"
       "[[change]]\ntime = 1.0\nnudge = { particle = 3, set = [-1e8, 0.0] }\n",
       "");
-  ScheduledRun<2> run(scene, kSeed);
+  ScheduledRun<2> run(scene, kNudgeSeed);
   run.run_until(1.0);
-  ScheduledRun<2> resumed(scene, kSeed, run.simulation().save());
+  ScheduledRun<2> resumed(scene, kNudgeSeed, run.simulation().save());
   for (ScheduledRun<2>* thrown : {&run, &resumed}) {
     const std::uint64_t before = thrown->simulation().counts().wall_collisions;
     CHECK_NOTHROW(thrown->run_until(1.0 + 1e-6));
@@ -267,7 +267,7 @@ TEST_CASE("Nudge: by hand it is recorded at its time, and a run of its scene has
   const Scene scene = parse_scene(kDisks, "");
   for (const double at : {0.0, 1.7, 4.0}) {
     CAPTURE(at);
-    const auto run = watched_run(scene, kSeed);
+    const auto run = watched_run(scene, kNudgeSeed);
     run->run_until(at, kNoLimit, kNoLimit);
     const Nudge heat{.centre = Vec2(6.0, 5.0), .radius = 3.0, .scale = 1.5};
     run->nudge(heat, 0.01);
@@ -297,7 +297,7 @@ TEST_CASE("Nudge: by hand it is recorded at its time, and a run of its scene has
 }
 
 TEST_CASE("Nudge: by hand an impossible one is refused, and the future stays") {
-  const auto run = watched_run(parse_scene(kDisks, ""), kSeed);
+  const auto run = watched_run(parse_scene(kDisks, ""), kNudgeSeed);
   run->run_until(4.0, kNoLimit, kNoLimit);
   run->go_back(2.0);
   run->run_until(2.0, kNoLimit, kNoLimit);
@@ -312,7 +312,7 @@ TEST_CASE("Nudge: by hand an impossible one is refused, and the future stays") {
 
 TEST_CASE("Nudge: removed from a run it leaves the bits of the others, and its future remains") {
   const Scene scene = parse_scene(kDisks, "");
-  const auto run = watched_run(scene, kSeed);
+  const auto run = watched_run(scene, kNudgeSeed);
   const auto tell = [&] {
     Frame frame;
     run->tell(frame, true);
@@ -325,7 +325,7 @@ TEST_CASE("Nudge: removed from a run it leaves the bits of the others, and its f
   const auto fresh = [&](const std::vector<Change>& changes, double time) {
     Scene with = scene;
     with.changes = changes;
-    ScheduledRun<2> alone(with, kSeed);
+    ScheduledRun<2> alone(with, kNudgeSeed);
     alone.run_until(time);
     return alone.simulation().state_hash();
   };

@@ -16,7 +16,7 @@ using namespace clatter::testing;
 
 namespace {
 
-constexpr std::uint64_t kSeed = 5;
+constexpr std::uint64_t kTravelSeed = 5;
 
 void run_to(WatchedRun& run, double time) {
   while (run.time() < time && !run.run_until(time, kNoLimit, run.counts().steps() + 1000)) {
@@ -42,7 +42,7 @@ std::uint64_t hash_of(WatchedRun& run) {
 template <int D>
 std::map<double, std::uint64_t> fresh_hashes(const Scene& scene, std::vector<double> times) {
   std::ranges::sort(times);
-  ScheduledRun<D> fresh(scene, kSeed);
+  ScheduledRun<D> fresh(scene, kTravelSeed);
   std::map<double, std::uint64_t> hashes;
   for (const double time : times) {
     fresh.run_until(time);
@@ -79,7 +79,7 @@ Scene driven_disks() {
 template <int D>
 void check_jumps(const Scene& scene, std::size_t record_bytes, std::size_t states) {
   constexpr double kEnd = 300.0;
-  const auto run = watched_run(scene, kSeed, record_bytes);
+  const auto run = watched_run(scene, kTravelSeed, record_bytes);
   run_to(*run, 150.0);
   run->change({{"particles.restitution", "0.8"}}, 0.0);
   run_to(*run, kEnd);
@@ -123,7 +123,7 @@ namespace {
 // A change of a law at t = 10, then the run continues to t = 20. Then the run goes back to
 // t = 8.
 std::unique_ptr<WatchedRun> changed_run(const Scene& scene) {
-  auto run = watched_run(scene, kSeed);
+  auto run = watched_run(scene, kTravelSeed);
   run_to(*run, 10.0);
   run->change({{"particles.restitution", "0.5"}}, 0.0);
   run_to(*run, 20.0);
@@ -245,7 +245,7 @@ TEST_CASE("Time travel: a change that is moved takes effect at its new time") {
 
 TEST_CASE("Time travel: a ramp that is moved keeps its duration") {
   const Scene scene = driven_disks();
-  const auto run = watched_run(scene, kSeed);
+  const auto run = watched_run(scene, kTravelSeed);
   run_to(*run, 160.0);  // amid the ramp
   run_to(*run, run->move_change(1, 120.0));
   const Scene now = with_changes_of(scene, *run);
@@ -259,7 +259,7 @@ TEST_CASE("Time travel: changes that do not exist, and times before the start, a
   const auto run = changed_run(driven_disks());
   CHECK_THROWS_AS(run->move_change(3, 5.0), UserError);
   CHECK_THROWS_AS(run->move_change(2, 0.0), UserError);
-  const auto unstarted = watched_run(driven_disks(), kSeed);
+  const auto unstarted = watched_run(driven_disks(), kTravelSeed);
   CHECK_THROWS_AS(unstarted->move_change(0, 5.0), UserError);
   CHECK(run->head() == doctest::Approx(20.0));
 }
@@ -278,7 +278,7 @@ TEST_CASE("Time travel: a refused change in the past keeps the future") {
 
 TEST_CASE("Time travel: the other future gives way if memory is short") {
   const Scene scene = driven_disks();
-  const auto run = watched_run(scene, kSeed, 50'000);
+  const auto run = watched_run(scene, kTravelSeed, 50'000);
   run_to(*run, 100.0);
   go_to(*run, 50.0);
   run->change({{"particles.restitution", "0.5"}}, 0.0);
@@ -292,7 +292,7 @@ TEST_CASE("Time travel: the other future gives way if memory is short") {
 TEST_CASE("Time travel: sums and rotations at a time are those of the first pass") {
   Scene scene = rough_spheres(40);
   scene.walls[1] = Wall{.kind = WallKind::Thermal, .temperature = 1.0};
-  const auto run = watched_run(scene, kSeed);
+  const auto run = watched_run(scene, kTravelSeed);
   run_to(*run, 60.0);
   run->change({{"particles.restitution", "0.85"}}, 0.0);  // a recorded state
   run_to(*run, 120.0);
@@ -311,7 +311,7 @@ TEST_CASE("Time travel: sums and rotations at a time are those of the first pass
 }
 
 TEST_CASE("Time travel: a run that stopped by itself returns to its stop, and continues after it") {
-  const auto run = watched_run(collapsing_gas(), kSeed);
+  const auto run = watched_run(collapsing_gas(), kTravelSeed);
   const double stop = run_to_stop(*run);
   const std::uint64_t hash = hash_of(*run);
   CHECK(frame_of(*run).stops == std::vector<double>{stop});
@@ -330,7 +330,7 @@ TEST_CASE("Time travel: a run that stopped by itself returns to its stop, and co
 TEST_CASE("Time travel: steps back pass the collisions of the steps forth") {
   Scene scene = driven_disks();
   SlicedWorker engine;
-  obey(engine, command::Open{scene, kSeed, false});
+  obey(engine, command::Open{scene, kTravelSeed, false});
   std::vector<Frame> steps = {obey(engine, command::Jump{0.0})};
   for (int step = 0; step < 20; ++step) steps.push_back(obey(engine, command::StepCollision{}));
   for (std::size_t step = 19; step >= 1; --step) {
@@ -347,7 +347,7 @@ TEST_CASE("Time travel: steps back pass the collisions of the steps forth") {
 TEST_CASE("Time travel: jumps, futures and steps in any order keep the bits of their scene") {
   const Scene scene = driven_disks();
   SlicedWorker engine;
-  obey(engine, command::Open{scene, kSeed, false});
+  obey(engine, command::Open{scene, kTravelSeed, false});
   engine.send(command::SetSpeed{200.0});
   obey(engine, command::Play{true, 20.0});
   std::mt19937 random(2);
@@ -398,7 +398,7 @@ TEST_CASE("Time travel: backwards, each frame is that of the run at its time") {
     REQUIRE(frame->snapshot.time == doctest::Approx(time).epsilon(1e-14));
     CHECK_FALSE(rewinder.due(time));
     if (number % 16 != 0) continue;
-    ScheduledRun<2> fresh(played, kSeed);
+    ScheduledRun<2> fresh(played, kTravelSeed);
     fresh.run_until(time);
     CHECK(frame->snapshot.positions == fresh.snapshot().positions);
     CHECK(frame->snapshot.velocities == fresh.snapshot().velocities);
@@ -423,7 +423,7 @@ TEST_CASE("Time travel: a gas plays backwards, halts to the bit, and reaches the
   const Scene scene = driven_disks();
   for (const bool changes_view : {false, true}) {
     SlicedWorker engine;
-    obey(engine, command::Open{scene, kSeed, false});
+    obey(engine, command::Open{scene, kTravelSeed, false});
     engine.send(command::SetSpeed{20.0});
     const double head = obey(engine, command::Play{true, 20.0}).snapshot.time;
     engine.send(command::PlayBackwards{});
@@ -454,7 +454,7 @@ TEST_CASE("Time travel: a gas plays backwards, halts to the bit, and reaches the
 TEST_CASE("Time travel: a stretch repeats until it has no length") {
   const Scene scene = driven_disks();
   SlicedWorker engine;
-  obey(engine, command::Open{scene, kSeed, false});
+  obey(engine, command::Open{scene, kTravelSeed, false});
   engine.send(command::SetSpeed{100.0});
   obey(engine, command::Play{true, 20.0});
   engine.send(command::Loop{5.0, 8.0});

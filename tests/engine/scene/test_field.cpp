@@ -24,7 +24,7 @@ std::vector<std::string> names_in(const Names& names) {
 
 const std::string kRough = "box.size = [10, 10]\nparticles.count = 5\nparticles.friction = 0.5\n";
 
-std::string refusal(const std::string& text) {
+std::string field_refusal(const std::string& text) {
   return refusal_of([&] { parse_scene(text, "s.toml"); });
 }
 
@@ -129,7 +129,7 @@ TEST_CASE("Fields: fields of spheres are refused for disks, with the reason") {
     const bool list = std::string(key) == "measure.fields";
     const std::string value = '"' + std::string(name) + '"';
     const std::string message =
-        refusal(kRough + key + " = " + (list ? "[" + value + "]" : value) + "\n");
+        field_refusal(kRough + key + " = " + (list ? "[" + value + "]" : value) + "\n");
     CHECK(says(message, "the box has no z axis"));
     CHECK(message.starts_with("s.toml:4:"));
   }

@@ -14,14 +14,14 @@ const std::string kBox =
     "[particles]\ncount = 10\nrestitution = 0.9\n[walls.left]\nkind = 'driven'\ndrive_speed = 1\n"
     "[walls.right]\nkind = 'static'\n";
 
-Scene scene_with(const std::string& changes) {
+Scene scene_with_changes(const std::string& changes) {
   return parse_scene(kBox + changes, "s.toml");
 }
 
 }  // namespace
 
 TEST_CASE("Schedule: changes apply in the order of their times, all keys of one together") {
-  const Scene scene = scene_with(
+  const Scene scene = scene_with_changes(
       "[[change]]\ntime = 7\nset = { 'walls.left' = { kind = 'thermal', temperature = 2.0 } }\n"
       "[[change]]\ntime = 3\nset = { 'particles.restitution' = 0.5, collapse.contact_time = 1e-3 "
       "}\n"
@@ -59,8 +59,8 @@ TEST_CASE("Schedule: spins go with the friction, and come back with the numbers 
 
 TEST_CASE("Schedule: a ramp goes from the value in force to its own in equal steps, and arrives") {
   Schedule schedule(
-      scene_with("[[change]]\ntime = 10\nset = { 'particles.restitution' = 0.3 }\n"
-                 "ramp = 'linear'\nuntil = 74\n"));
+      scene_with_changes("[[change]]\ntime = 10\nset = { 'particles.restitution' = 0.3 }\n"
+                         "ramp = 'linear'\nuntil = 74\n"));
   for (int step = 1; step <= Schedule::kRampSteps; ++step) {
     REQUIRE(schedule.next() == 10.0 + step);
     schedule.advance();
@@ -72,7 +72,8 @@ TEST_CASE("Schedule: a ramp goes from the value in force to its own in equal ste
 }
 
 TEST_CASE("Schedule: a change added during the run comes before later ones") {
-  Schedule schedule(scene_with("[[change]]\ntime = 5\nset = { 'particles.restitution' = 0.5 }\n"));
+  Schedule schedule(
+      scene_with_changes("[[change]]\ntime = 5\nset = { 'particles.restitution' = 0.5 }\n"));
   schedule.add({.time = 2.0, .set = {{"walls.left.drive_speed", "3.0"}}});
   CHECK(schedule.next() == 2.0);
   schedule.advance();
@@ -81,7 +82,7 @@ TEST_CASE("Schedule: a change added during the run comes before later ones") {
 }
 
 TEST_CASE("Schedule: from a time on, it continues as the schedule that went there") {
-  const Scene scene = scene_with(
+  const Scene scene = scene_with_changes(
       "[[change]]\ntime = 3\nset = { 'particles.restitution' = 0.5 }\n"
       "[[change]]\ntime = 4\nuntil = 12\nramp = 'linear'\nset = { 'walls.left.drive_speed' = 9 "
       "}\n");
@@ -102,7 +103,7 @@ TEST_CASE("Schedule: from a time on, it continues as the schedule that went ther
 }
 
 TEST_CASE("Schedule: changes are written as a scene file that reads back") {
-  const Scene scene = scene_with(
+  const Scene scene = scene_with_changes(
       "[[change]]\ntime = 1.5\nset = { 'particles.restitution' = 0.5, walls.left = {kind = "
       "'static'} "
       "}\n"
@@ -121,7 +122,7 @@ TEST_CASE("Schedule: changes are written as a scene file that reads back") {
 // Laws do not contain the list of changes. With it, 20,000 changes would need 20,000 copies of
 // 20,000.
 TEST_CASE("Schedule: laws are without the changes, and any number of these comes in order") {
-  Scene scene = scene_with("");
+  Scene scene = scene_with_changes("");
   constexpr int kChanges = 20'000;
   for (int i = 0; i < kChanges; ++i) {
     const int number = (i * 7919) % kChanges;  // unsorted

@@ -41,7 +41,7 @@ Scene walled_scene() {
 }
 
 /// Walls at the back and front.
-Scene deep_scene() {
+Scene deep_state_scene() {
   return walled(smooth_scene(3), 2);
 }
 
@@ -267,11 +267,11 @@ TEST_CASE("State file: mistakes are reported with their place and a fix") {
       {kSphereHeader + "1,2,5.6,3,4,5\n",
        "a.csv:2:5: at z = 5.6 the particle overlaps the front wall; give a number between 2 and "
        "5.5",
-       deep_scene()},
+       deep_state_scene()},
       {kSphereHeader + "1,2,1.9,3,4,5\n",
        "a.csv:2:5: at z = 1.9 the particle overlaps the back wall at time 0; give a "
        "number between 2 and 5.5, or change the phase of the wall",
-       deep_scene()},
+       deep_state_scene()},
       // their overlaps
       {kSphereHeader + "1,2,3,0,0,0\n\n5,5,3,0,0,0\n1,2,3.75,0,0,0\n",
        "a.csv:5:1: the particles of lines 2 and 5 overlap by 0.25 diameters; move them apart",
@@ -302,7 +302,7 @@ TEST_CASE("State file: particles may touch each other or a wall, up to rounding"
     return state_refusal(kSphereHeader + csv, scene);
   };
   CHECK(of_spheres("5,2,3,0,0,0\n5,2,3.9999999999995,0,0,0\n6,2,3,0,0,0\n", smooth_scene(3)) == "");
-  CHECK(of_spheres("5,2,1.9999999999995,0,0,0\n5,2,5.5,0,0,0\n", deep_scene()) == "");
+  CHECK(of_spheres("5,2,1.9999999999995,0,0,0\n5,2,5.5,0,0,0\n", deep_state_scene()) == "");
   CHECK(of_spheres("5,2,5.75,0,0,0\n5,2,0.75,0,0,0\n", smooth_scene(3)) == "");
   // Across a periodic border these would overlap.
   Scene flat = smooth_scene(3);
@@ -322,8 +322,8 @@ TEST_CASE(
   CHECK(says(state_refusal(kHeader + "10.6,2,0,0\n", scene), "overlaps the right wall"));
   CHECK(says(state_refusal(kHeader + "10.4,2,0,0\n10.4,2.9,0,0\n", scene), "overlap by 0.1"));
 
-  CHECK(state_refusal(kSphereHeader + "5,2,2.1,0,0,0\n", deep_scene()) == "");
-  scene = deep_scene();
+  CHECK(state_refusal(kSphereHeader + "5,2,2.1,0,0,0\n", deep_state_scene()) == "");
+  scene = deep_state_scene();
   scene.walls[kFront] =
       Wall{.kind = WallKind::Sinusoidal, .stroke = 2.0, .frequency = 1.0, .phase = 0.75};
   CHECK(state_refusal(kSphereHeader + "5,2,6.4,0,0,0\n5,3,6.4,0,0,0\n", scene) == "");

@@ -11,13 +11,14 @@ namespace clatter {
 namespace {
 
 constexpr Colour kInk = {0xff, 0xff, 0xff};
-constexpr Size kSize{200, 200};
+constexpr Size kArrowSize{200, 200};
 
 Image draw(const Gl& gl, const std::vector<ArrowMap::Arrow>& arrows, double pixels) {
-  const Canvas canvas = blank_canvas(gl, kSize);
+  const Canvas canvas = blank_canvas(gl, kArrowSize);
   const ArrowMap map{Quantity::Velocity, Vec2(4.0, 4.0), arrows};
   // 10 pixels a unit.
-  ArrowLayer(gl).draw(map, {{Vec2(10.0, 10.0), 20.0}, kSize}, pixels, kInk, kDarkTheme.background);
+  ArrowLayer(gl).draw(map, {{Vec2(10.0, 10.0), 20.0}, kArrowSize}, pixels, kInk,
+                      kDarkTheme.background);
   return canvas.read();
 }
 
@@ -30,10 +31,10 @@ struct Extent {
 
 Extent extent_of(const Image& image) {
   Extent extent;
-  for (int y = 0; y < kSize.height; ++y) {
-    for (int x = 0; x < kSize.width; ++x) {
+  for (int y = 0; y < kArrowSize.height; ++y) {
+    for (int x = 0; x < kArrowSize.width; ++x) {
       if (difference(pixel(image, x, y), kInk) > 100) continue;
-      const Vec2 place(x + 0.5, kSize.height - y - 0.5);
+      const Vec2 place(x + 0.5, kArrowSize.height - y - 0.5);
       extent.low = extent.low.cwiseMin(place);
       extent.high = extent.high.cwiseMax(place);
       extent.mean += place;

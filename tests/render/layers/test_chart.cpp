@@ -11,7 +11,7 @@ namespace clatter {
 
 namespace {
 
-constexpr Size kSize{1200, 900};
+constexpr Size kChartSize{1200, 900};
 constexpr Colour kBlue{0x00, 0x72, 0xb2}, kVermilion{0xd5, 0x5e, 0x00};
 
 // An element of an SVG file.
@@ -89,7 +89,7 @@ std::vector<Element> named(const std::vector<Element>& elements, const std::stri
 }
 
 std::vector<Element> drawn(const Chart& chart) {
-  return elements_of(chart_svg(chart, kSize));
+  return elements_of(chart_svg(chart, kChartSize));
 }
 
 Element text_of(const std::vector<Element>& elements, const std::string& text) {
@@ -207,7 +207,7 @@ TEST_CASE("Chart: points that an axis cannot show are omitted") {
   for (const bool logarithmic : {false, true}) {
     Chart chart = chart_of(points, logarithmic);
     chart.lines.push_back({"line", {{0.0, 1.0}, {1.0, none}, {1.0, 1.0}, {2.0, 2.0}}});
-    const std::string svg = chart_svg(chart, kSize);
+    const std::string svg = chart_svg(chart, kChartSize);
     CHECK(named(elements_of(svg), "circle").size() == (logarithmic ? 3 : 7));
     for (const char* word : {"nan", "inf"}) CHECK(svg.find(word) == std::string::npos);
   }
@@ -235,7 +235,7 @@ TEST_CASE("Chart: texts of a chart are escaped, and wrapped at its width") {
     if (text.text.find("word") == std::string::npos) continue;
     rows.insert(text.number("y"));
     CHECK(text.text.size() < 100);
-    CHECK(text.number("y") < kSize.height);
+    CHECK(text.number("y") < kChartSize.height);
   }
   CHECK(rows.size() > 1);
 }
@@ -266,7 +266,7 @@ TEST_CASE("Chart: the legend has the names, each line style once, and covers no 
   CHECK(right < high.x());
   for (const char* name : {"first", "second", "theory"}) {
     CHECK(text_of(full, name).number("x") > right);
-    CHECK(text_of(full, name).number("x") < kSize.width);
+    CHECK(text_of(full, name).number("x") < kChartSize.width);
   }
 }
 
@@ -314,7 +314,7 @@ TEST_CASE("Chart: the markers of sixteen series differ in their shape or filling
 
 TEST_CASE("Chart: a chart without points is an empty frame, also in a tiny picture") {
   for (const bool logarithmic : {false, true}) {
-    for (const Size size : {kSize, Size{1, 1}, Size{30, 400}}) {
+    for (const Size size : {kChartSize, Size{1, 1}, Size{30, 400}}) {
       Chart chart = chart_of({}, logarithmic);
       chart.title = "title";
       const std::string svg = chart_svg(chart, size);
@@ -336,8 +336,8 @@ TEST_CASE("Chart: the picture has the markers, dashes and texts of the file") {
   chart.lines.push_back({"", {{-1.0, 0.5}, {2.0, 0.5}}, LineStyle::Dashed});
   chart.x.label = "xxxxxxxx";
   const auto elements = drawn(chart);
-  const Image image = chart_image(gl, chart, kSize);
-  CHECK(image.size == kSize);
+  const Image image = chart_image(gl, chart, kChartSize);
+  CHECK(image.size == kChartSize);
   CHECK(pixel(image, 2, 2) == Colour{255, 255, 255});
   const auto seen = [&](Vec2 place) {
     return pixel(image, static_cast<int>(place.x()), static_cast<int>(place.y()));
@@ -381,7 +381,7 @@ TEST_CASE("Chart: the picture has the markers, dashes and texts of the file") {
   CHECK(before > 0.2 * em * em);
   CHECK(ink_between(x, x + 3.0 * em, y - 0.6 * em, y + 1.0) ==
         doctest::Approx(before).epsilon(0.1));
-  CHECK(ink_between(0.0, kSize.width, y + 2.0, kSize.height) == 0);
+  CHECK(ink_between(0.0, kChartSize.width, y + 2.0, kChartSize.height) == 0);
   // The label of y is turned: its descender is to the right of its baseline.
   const Element turned = text_of(elements, "y");
   const double right = turned.number("x"), middle = turned.number("y");

@@ -9,7 +9,7 @@ namespace clatter {
 
 namespace {
 
-constexpr Size kSize{40, 30};
+constexpr Size kCoverageSize{40, 30};
 
 Eigen::Array4d total(const Coverage& coverage) {
   Eigen::Array4d sum = Eigen::Array4d::Zero();
@@ -27,7 +27,7 @@ TEST_CASE("Coverage: small disks keep their area and their light, wherever they 
   for (const double radius : {0.01, 0.3, 0.5, 0.7, 1.1, 1.499}) {
     CAPTURE(radius);
     const double area = M_PI * radius * radius;
-    coverage.restart(kSize, radius);
+    coverage.restart(kCoverageSize, radius);
     Eigen::Array4d expected = Eigen::Array4d::Zero();
     for (int i = 0; i < 500; ++i) {
       const auto any = [&] { return static_cast<std::uint8_t>(channel(random)); };
@@ -62,15 +62,15 @@ double area_in(int x, int y, const Vec2& centre, double radius) {
 
 TEST_CASE("Coverage: the coverage of a pixel is its overlap with a small disk") {
   Coverage coverage;
-  const int width = kSize.width + 2 * Coverage::kMargin;
+  const int width = kCoverageSize.width + 2 * Coverage::kMargin;
   for (const double radius : {0.3, 1.2, 1.49}) {
     for (const Vec2& centre : {Vec2(7.0, 9.0), Vec2(7.5, 9.5), Vec2(20.31, 11.87)}) {
-      coverage.restart(kSize, radius);
+      coverage.restart(kCoverageSize, radius);
       coverage.add(centre, {255, 255, 255});
       coverage.sum();
       double worst = 0.0;
-      for (int y = 0; y < kSize.height; ++y) {
-        for (int x = 0; x < kSize.width; ++x) {
+      for (int y = 0; y < kCoverageSize.height; ++y) {
+        for (int x = 0; x < kCoverageSize.width; ++x) {
           const double area =
               coverage.pixels()[(y + Coverage::kMargin) * width + x + Coverage::kMargin][3];
           worst = std::max(worst, std::abs(area - area_in(x, y, centre, radius)));
@@ -84,11 +84,11 @@ TEST_CASE("Coverage: the coverage of a pixel is its overlap with a small disk") 
 
 TEST_CASE("Coverage: a picture without disks has no light, also after one with disks") {
   Coverage coverage;
-  coverage.restart(kSize, 0.5);
+  coverage.restart(kCoverageSize, 0.5);
   coverage.add({3.0, 3.0}, {255, 255, 255});
   coverage.sum();
   CHECK(total(coverage)[3] > 0.0);
-  coverage.restart(kSize, 0.5);
+  coverage.restart(kCoverageSize, 0.5);
   coverage.sum();
   CHECK(total(coverage).isZero());
 }

@@ -9,7 +9,7 @@ namespace clatter {
 
 namespace {
 
-constexpr Size kSize{60, 40};
+constexpr Size kFieldSize{60, 40};
 constexpr Colour kGap = {0xff, 0x00, 0x00};
 
 // The field over a picture of 60x40 pixels.
@@ -21,8 +21,8 @@ Image draw(const Gl& gl, const Vec2& box, std::vector<int> cells, std::vector<do
     for (Side side : {kLeft, kRight, kBottom, kTop}) snapshot.walls[side] = Wall{};
   }
   snapshot.field = FieldMap{Quantity::Density, std::move(cells), std::move(values)};
-  const Canvas canvas = blank_canvas(gl, kSize);
-  const Projection projection{{0.5 * box, box.x()}, kSize};
+  const Canvas canvas = blank_canvas(gl, kFieldSize);
+  const Projection projection{{0.5 * box, box.x()}, kFieldSize};
   FieldLayer(gl).draw(snapshot, projection, {colour_map(Palette::Inferno)}, style,
                       style == FieldStyle::Cells ? kGap : Colour{0, 0, 0, 0});
   return canvas.read();
@@ -36,8 +36,8 @@ TEST_CASE("Field layer: each cell has its colour up to its edges, and a gap is h
   const ColourScale scale{colour_map(Palette::Inferno)};
   const Image image = draw(context->gl(), {3.0, 2.0}, {3, 2}, values, FieldStyle::Cells);
   int hatched = 0, bare = 0;
-  for (int y = 0; y < kSize.height; ++y) {
-    for (int x = 0; x < kSize.width; ++x) {
+  for (int y = 0; y < kFieldSize.height; ++y) {
+    for (int x = 0; x < kFieldSize.width; ++x) {
       const double value = values[3 * (1 - y / 20) + x / 20];
       if (!std::isnan(value)) REQUIRE(pixel(image, x, y) == scale(value));
       // The gap, without its border.
@@ -57,7 +57,7 @@ TEST_CASE("Field layer: a smooth field has no steps") {
   const auto largest_step = [&](FieldStyle style) {
     const Image image = draw(context->gl(), {6.0, 4.0}, {6, 4}, values, style);
     int largest = 0;
-    for (int x = 1; x < kSize.width; ++x) {
+    for (int x = 1; x < kFieldSize.width; ++x) {
       largest = std::max(largest, difference(pixel(image, x, 20), pixel(image, x - 1, 20)));
     }
     return largest;
@@ -73,10 +73,10 @@ TEST_CASE("Field layer: a smooth field fades to the ground where it has no value
   const Image image = draw(context->gl(), {10.0, 6.0}, {10, 6}, values, FieldStyle::Smooth, false);
   const Colour full = colour_map(Palette::Inferno).back();
   CHECK(difference(pixel(image, 1, 20), full) < 60);
-  for (int x = 1; x < kSize.width; ++x) {
+  for (int x = 1; x < kFieldSize.width; ++x) {
     CHECK(pixel(image, x, 20).red <= pixel(image, x - 1, 20).red);
   }
-  for (int x = 36; x < kSize.width; ++x) REQUIRE(pixel(image, x, 20) == kDarkTheme.background);
+  for (int x = 36; x < kFieldSize.width; ++x) REQUIRE(pixel(image, x, 20) == kDarkTheme.background);
 }
 
 TEST_CASE("Field layer: a smooth field continues beyond a periodic border only") {
@@ -86,7 +86,7 @@ TEST_CASE("Field layer: a smooth field continues beyond a periodic border only")
   for (const bool periodic : {false, true}) {
     const Image image =
         draw(context->gl(), {6.0, 4.0}, {6, 4}, values, FieldStyle::Smooth, periodic);
-    CHECK((pixel(image, kSize.width - 1, 20).red > 60) == periodic);
+    CHECK((pixel(image, kFieldSize.width - 1, 20).red > 60) == periodic);
   }
 }
 

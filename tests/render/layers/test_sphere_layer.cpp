@@ -11,7 +11,7 @@ namespace clatter {
 
 namespace {
 
-constexpr Size kSize{240, 180};
+constexpr Size kSphereSize{240, 180};
 constexpr double kRadius = 0.5;
 
 View plain_view() {
@@ -48,9 +48,9 @@ Snapshot random_spheres(int count) {
 Image draw(const Snapshot& snapshot, const Camera& camera, const View& view) {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
-  const Canvas canvas(context->gl(), kSize);
+  const Canvas canvas(context->gl(), kSphereSize);
   canvas.bind();
-  renderer.draw(snapshot, camera, kSize, view, {});
+  renderer.draw(snapshot, camera, kSphereSize, view, {});
   return canvas.read();
 }
 
@@ -60,11 +60,11 @@ struct Ray {
 };
 
 Ray ray_of(const Camera& camera, double x, double y) {
-  const Eye eye(Projection{camera, kSize});
-  const double unit = camera.width / kSize.width;
+  const Eye eye(Projection{camera, kSphereSize});
+  const double unit = camera.width / kSphereSize.width;
   const Vec3 right = eye.axes().row(0), up = eye.axes().row(1), towards = eye.axes().row(2);
-  const Vec3 place =
-      eye.centre() + unit * (x - 0.5 * kSize.width) * right + unit * (y - 0.5 * kSize.height) * up;
+  const Vec3 place = eye.centre() + unit * (x - 0.5 * kSphereSize.width) * right +
+                     unit * (y - 0.5 * kSphereSize.height) * up;
   if (camera.orbit.view_angle == 0.0) return {place + 100.0 * towards, -towards};
   const double distance =
       0.5 * camera.width / std::tan(0.5 * camera.orbit.view_angle * M_PI / 180.0);
@@ -116,12 +116,12 @@ TEST_CASE("Sphere layer: every pixel shows the first sphere on its ray") {
                         {.z = 22.0, .azimuth = 30.0, .elevation = 25.0, .view_angle = view_angle}};
     const Image image = draw(snapshot, camera, plain_view());
     int spheres = 0, wrong = 0;
-    for (int y = 0; y < kSize.height; ++y) {
-      for (int x = 0; x < kSize.width; ++x) {
+    for (int y = 0; y < kSphereSize.height; ++y) {
+      for (int x = 0; x < kSphereSize.width; ++x) {
         double clearance = 0.0;
         const auto hit =
-            first_hit(snapshot, ray_of(camera, x + 0.5, kSize.height - y - 0.5), clearance);
-        if (!hit || clearance < 2.0 * camera.width / kSize.width) continue;
+            first_hit(snapshot, ray_of(camera, x + 0.5, kSphereSize.height - y - 0.5), clearance);
+        if (!hit || clearance < 2.0 * camera.width / kSphereSize.width) continue;
         ++spheres;
         const Colour colour = pixel(image, x, y);
         if (hit->sphere % 2 ? !is_red(colour) : !is_blue(colour)) ++wrong;
@@ -243,13 +243,13 @@ TEST_CASE("Small spheres: they have the light of spheres with a shape, seen from
     const Camera camera{{46.0, 45.0}, width, {.z = 44.0, .azimuth = 30.0, .elevation = 25.0}};
     const auto picture = [&](int samples) {
       Renderer renderer(context->gl(), samples);
-      const Canvas canvas(context->gl(), kSize);
+      const Canvas canvas(context->gl(), kSphereSize);
       canvas.bind();
       Snapshot without = snapshot;
       without.positions.conservativeResize(3, 0);
-      renderer.draw(without, camera, kSize, black_view(), {});
+      renderer.draw(without, camera, kSphereSize, black_view(), {});
       const double box = light_of_picture(canvas.read());
-      renderer.draw(snapshot, camera, kSize, black_view(), {});
+      renderer.draw(snapshot, camera, kSphereSize, black_view(), {});
       return light_of_picture(canvas.read()) - box;
     };
     CAPTURE(width);

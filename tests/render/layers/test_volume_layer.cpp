@@ -10,7 +10,7 @@ namespace clatter {
 
 namespace {
 
-constexpr Size kSize{240, 180};
+constexpr Size kVolumeSize{240, 180};
 constexpr double kExtinction = 0.3;
 
 /// A box of 4 x 4 x 4 without particles, with a field of equal cells.
@@ -42,11 +42,11 @@ Camera camera_from(double azimuth, double elevation, double view_angle = 0.0) {
           {.z = 2.0, .azimuth = azimuth, .elevation = elevation, .view_angle = view_angle}};
 }
 
-Image draw(const Snapshot& snapshot, const Camera& camera, const View& view, int samples = 1,
-           bool transparent = false) {
+Image draw_volume(const Snapshot& snapshot, const Camera& camera, const View& view, int samples = 1,
+                  bool transparent = false) {
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl(), samples, transparent);
-  return draw(renderer, context->gl(), snapshot, camera, kSize, view);
+  return draw(renderer, context->gl(), snapshot, camera, kVolumeSize, view);
 }
 
 /// sRGB of linear light (IEC 61966-2-1).
@@ -79,39 +79,39 @@ TEST_CASE("Volume layer: a uniform field has the opacity 1 - exp(-k L) of each r
   const View view = volume_view();
   // A pixel beside the centre, seen along z: L = 4. At half the range k is half as large.
   const Camera front = camera_from(0.0, 0.0);
-  CHECK(difference(pixel(draw(half, front, view), 130, 85),
+  CHECK(difference(pixel(draw_volume(half, front, view), 130, 85),
                    blend(kMiddle, opacity_of(0.5 * kExtinction * 4.0))) <= 1);
-  CHECK(difference(pixel(draw(full, front, view), 130, 85),
+  CHECK(difference(pixel(draw_volume(full, front, view), 130, 85),
                    blend(kEnd, opacity_of(kExtinction * 4.0))) <= 1);
-  CHECK(difference(pixel(draw(beyond, front, view), 130, 85),
+  CHECK(difference(pixel(draw_volume(beyond, front, view), 130, 85),
                    blend(kEnd, opacity_of(kExtinction * 4.0))) <= 1);
   // Along the diagonal of a square, at a distance x of it: L = 4 sqrt(2) - 2 x.
   const double diagonal = 4.0 * std::sqrt(2.0) - 2.0 * (20.5 / 40.0);
-  CHECK(difference(pixel(draw(full, camera_from(45.0, 0.0), view), 140, 85),
+  CHECK(difference(pixel(draw_volume(full, camera_from(45.0, 0.0), view), 140, 85),
                    blend(kEnd, opacity_of(kExtinction * diagonal))) <= 1);
   // In a perspective the ray is inclined: the viewer is 3 in front of the centre.
   const double inclined = 4.0 * std::hypot(3.0, 45.5 / 40.0, 45.5 / 40.0) / 3.0;
-  CHECK(difference(pixel(draw(full, camera_from(0.0, 0.0, 90.0), view), 74, 135),
+  CHECK(difference(pixel(draw_volume(full, camera_from(0.0, 0.0, 90.0), view), 74, 135),
                    blend(kEnd, opacity_of(kExtinction * inclined))) <= 1);
   // From a viewer in the box at z = 2 + 0.5/tan(45 deg), less the nearest 2 % of the distance.
   const Camera inside{{2.0, 2.0}, 1.0, {.z = 2.0, .view_angle = 90.0}};
-  CHECK(difference(pixel(draw(full, inside, view), 120, 90),
+  CHECK(difference(pixel(draw_volume(full, inside, view), 120, 90),
                    blend(kEnd, opacity_of(kExtinction * (2.0 + 0.98 * 0.5)))) <= 1);
   // A ray along an edge of cells: the centre of the pixel is at the centre of the box.
   const Camera shifted{{2.0 + 1.0 / 64.0, 2.0 + 1.0 / 64.0}, 7.5, {.z = 2.0}};  // 32 pixels a unit
-  CHECK(difference(pixel(draw(box_with(1.0, {4, 4, 4}), shifted, view), 119, 90),
+  CHECK(difference(pixel(draw_volume(box_with(1.0, {4, 4, 4}), shifted, view), 119, 90),
                    blend(kEnd, opacity_of(kExtinction * 4.0))) <= 1);
   // Outside of the box there is nothing.
-  CHECK(pixel(draw(full, front, view), 30, 90) == Colour{0, 0, 0});
+  CHECK(pixel(draw_volume(full, front, view), 30, 90) == Colour{0, 0, 0});
 }
 
 TEST_CASE("Volume layer: a slab cuts it") {
   View view = volume_view();
   view.slab = Slab{Axis::Z, 0.5, 2.0};
-  const Image image = draw(box_with(1.0), camera_from(0.0, 0.0), view);
+  const Image image = draw_volume(box_with(1.0), camera_from(0.0, 0.0), view);
   CHECK(difference(pixel(image, 130, 85), blend(kEnd, opacity_of(kExtinction * 1.5))) <= 1);
   view.slab = Slab{Axis::X, 2.0, 9.0};
-  const Image right = draw(box_with(1.0), camera_from(0.0, 0.0), view);
+  const Image right = draw_volume(box_with(1.0), camera_from(0.0, 0.0), view);
   CHECK(difference(pixel(right, 130, 85), blend(kEnd, opacity_of(kExtinction * 4.0))) <= 1);
   CHECK(pixel(right, 110, 85) == Colour{0, 0, 0});
 }
@@ -133,7 +133,7 @@ TEST_CASE("Volume layer: a hot cell is at its place from every side") {
           {0.0, 90.0, {third - 0.667, 0.4}, {2.0, 1.2}}}) {
       CAPTURE(azimuth);
       CAPTURE(elevation);
-      const Image image = draw(snapshot, camera_from(azimuth, elevation), volume_view());
+      const Image image = draw_volume(snapshot, camera_from(azimuth, elevation), volume_view());
       int wrong = 0;
       // Between the edges of the box, and not on a border of the cell.
       for (int y = 15; y < 165; y += 5) {
@@ -161,10 +161,10 @@ TEST_CASE("Volume layer: it is in front of the sphere or slice where a ray ends"
     for (const double z : {3.5, 2.5, 0.5}) {
       CAPTURE(z);
       snapshot.positions = as_columns<3>({{2.0, 2.0, z}});
-      const Colour sphere = pixel(draw(snapshot, front, without), 120, 90);
+      const Colour sphere = pixel(draw_volume(snapshot, front, without), 120, 90);
       CHECK(sphere.green > 100);
       const double depth = kExtinction * (4.0 - z - 0.5);
-      CHECK(difference(pixel(draw(snapshot, front, view), 120, 90),
+      CHECK(difference(pixel(draw_volume(snapshot, front, view), 120, 90),
                        blend(kEnd, opacity_of(depth), sphere)) <= 1);
     }
     // A slice at z = 1, in a half of the box that is weaker than the half in front of it.
@@ -173,7 +173,7 @@ TEST_CASE("Volume layer: it is in front of the sphere or slice where a ray ends"
     View sliced = view;
     sliced.field_style = FieldStyle::Cells;
     sliced.slices = {{Axis::Z, 1.0}};
-    CHECK(difference(pixel(draw(halves, front, sliced), 120, 90),
+    CHECK(difference(pixel(draw_volume(halves, front, sliced), 120, 90),
                      blend(kEnd, opacity_of(kExtinction * 2.0),
                            blend(kMiddle, opacity_of(0.5 * kExtinction), kMiddle))) <= 1);
   }
@@ -185,7 +185,7 @@ TEST_CASE("Volume layer: a dense one hides spheres, and there are none outside o
   snapshot.velocities = as_columns<3>({{1.0, 0.0, 0.0}});
   View view = volume_view();
   view.volume = 20.0;
-  const Image image = draw(snapshot, camera_from(0.0, 0.0), view);
+  const Image image = draw_volume(snapshot, camera_from(0.0, 0.0), view);
   CHECK(difference(pixel(image, 190, 90), kEnd) <= 1);
   CHECK(pixel(image, 205, 90) == Colour{0, 0, 0});
 }
@@ -200,9 +200,10 @@ TEST_CASE("Volume layer: supersampling, motion blur and a missing background kee
     for (const int samples : {1, 2}) {
       CAPTURE(exposure);
       CAPTURE(samples);
-      CHECK(difference(pixel(draw(snapshot, front, volume_view(), samples), 130, 85), expected) <=
-            1);
-      const Image clear = with_own_colours(draw(snapshot, front, volume_view(), samples, true));
+      CHECK(difference(pixel(draw_volume(snapshot, front, volume_view(), samples), 130, 85),
+                       expected) <= 1);
+      const Image clear =
+          with_own_colours(draw_volume(snapshot, front, volume_view(), samples, true));
       Colour own = kEnd;
       own.alpha = static_cast<std::uint8_t>(std::lround(255.0 * opacity));
       CHECK(difference(pixel(clear, 130, 85), own) <= 2);

@@ -13,7 +13,7 @@ Wall thermal(double temperature) {
   return Wall{.kind = WallKind::Thermal, .temperature = temperature};
 }
 
-constexpr Size kSize{200, 200};
+constexpr Size kColourSize{200, 200};
 
 // The colour of the face of a thermal wall beside a gas.
 Colour face(const Gl& gl, double wall_temperature, double gas_temperature, const View& view) {
@@ -22,7 +22,7 @@ Colour face(const Gl& gl, double wall_temperature, double gas_temperature, const
   snapshot.box = Vec2(10.0, 10.0);
   snapshot.walls[kLeft] = snapshot.walls[kRight] = thermal(wall_temperature);
   snapshot.temperature = gas_temperature;
-  return pixel(draw(renderer, gl, snapshot, {{5.0, 5.0}, 20.0}, kSize, view), 49, 100);
+  return pixel(draw(renderer, gl, snapshot, {{5.0, 5.0}, 20.0}, kColourSize, view), 49, 100);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace clatter {
 
 namespace {
 
-constexpr Size kSize{200, 200};
+constexpr Size kWallSize{200, 200};
 
 // A box of 10 x 10 in the middle of the picture, 100 pixels wide.
 Image draw(const Gl& gl, const Wall& wall, double time = 0.0) {
@@ -16,8 +16,8 @@ Image draw(const Gl& gl, const Wall& wall, double time = 0.0) {
   snapshot.time = time;
   snapshot.temperature = 1.0;
   snapshot.walls[kLeft] = snapshot.walls[kRight] = wall;
-  const Canvas canvas = blank_canvas(gl, kSize);
-  WallLayer(gl).draw(snapshot, {{{5.0, 5.0}, 20.0}, kSize}, {kDarkTheme});
+  const Canvas canvas = blank_canvas(gl, kWallSize);
+  WallLayer(gl).draw(snapshot, {{{5.0, 5.0}, 20.0}, kWallSize}, {kDarkTheme});
   return canvas.read();
 }
 
@@ -48,7 +48,7 @@ TEST_CASE("Wall layer: only a driven wall's teeth move, at half its drive speed"
   CHECK(difference(start, draw(context->gl(), wall_of(WallKind::Driven), 0.3)) > 50);
   // The teeth repeat every 0.75 thicknesses. At half the drive speed they move by this distance in
   // this time.
-  const double period = 2.0 * 0.75 * wall_thickness(kSize) / 10.0;
+  const double period = 2.0 * 0.75 * wall_thickness(kWallSize) / 10.0;
   CHECK(difference(start, draw(context->gl(), wall_of(WallKind::Driven), period)) <= 4);
   for (WallKind kind : {WallKind::Static, WallKind::Thermal}) {
     CHECK(difference(draw(context->gl(), wall_of(kind)), draw(context->gl(), wall_of(kind), 0.3)) ==
@@ -65,11 +65,11 @@ TEST_CASE("Wall layer: a moving wall is drawn at its position, and covers the pi
       snapshot.box = Vec2(10.0, 10.0);
       snapshot.walls[kLeft] = snapshot.walls[kRight] = wall_of(kind);
       snapshot.wall_displacement[kLeft] = displacement;
-      const Canvas canvas = blank_canvas(context->gl(), kSize);
+      const Canvas canvas = blank_canvas(context->gl(), kWallSize);
       // A field, brighter than any wall.
       context->gl().ClearColor(1.0f, 1.0f, 1.0f, 1.0f);
       context->gl().Clear(GL_COLOR_BUFFER_BIT);
-      WallLayer(context->gl()).draw(snapshot, {{{5.0, 5.0}, 20.0}, kSize}, {kDarkTheme});
+      WallLayer(context->gl()).draw(snapshot, {{{5.0, 5.0}, 20.0}, kWallSize}, {kDarkTheme});
       const Image image = canvas.read();
       const Colour white = {255, 255, 255};
       const int face = 50 + static_cast<int>(10.0 * displacement);
@@ -93,12 +93,12 @@ TEST_CASE("Wall layer: a moving wall looks the same wherever it is") {
     snapshot.time = displacement;
     snapshot.walls[kLeft] = snapshot.walls[kRight] = wall_of(WallKind::Sawtooth);
     snapshot.wall_displacement[kLeft] = displacement;
-    const Canvas canvas = blank_canvas(context->gl(), kSize);
-    WallLayer(context->gl()).draw(snapshot, {{{5.0, 5.0}, 20.0}, kSize}, {kDarkTheme});
+    const Canvas canvas = blank_canvas(context->gl(), kWallSize);
+    WallLayer(context->gl()).draw(snapshot, {{{5.0, 5.0}, 20.0}, kWallSize}, {kDarkTheme});
     return canvas.read();
   };
   const Image start = at(0.0), moved = at(3.0);
-  const int thickness = static_cast<int>(wall_thickness(kSize));
+  const int thickness = static_cast<int>(wall_thickness(kWallSize));
   for (int y = 55; y < 145; ++y) {
     for (int x = 50 - thickness; x < 49; ++x) {
       CHECK(difference(pixel(start, x, y), pixel(moved, x + 30, y)) <= 3);
@@ -116,8 +116,8 @@ TEST_CASE(
   for (double displacement : {-2.0, 2.0}) {
     CAPTURE(displacement);
     snapshot.wall_displacement[kLeft] = displacement;
-    const Canvas canvas = blank_canvas(context->gl(), kSize);
-    WallLayer(context->gl()).draw(snapshot, {{{5.0, 5.0}, 20.0}, kSize}, {kDarkTheme});
+    const Canvas canvas = blank_canvas(context->gl(), kWallSize);
+    WallLayer(context->gl()).draw(snapshot, {{{5.0, 5.0}, 20.0}, kWallSize}, {kDarkTheme});
     const Image image = canvas.read();
     for (int y = 51; y < 149; ++y) {
       CHECK(difference(pixel(image, 49, y), kDarkTheme.background) > 20);
@@ -134,8 +134,8 @@ TEST_CASE("Wall layer: the walls beside one that moves end at its face") {
   snapshot.walls[kLeft] = wall_of(WallKind::Sinusoidal);
   for (double displacement : {-1.0, 2.0}) {
     snapshot.wall_displacement[kLeft] = displacement;
-    const Canvas canvas = blank_canvas(context->gl(), kSize);
-    WallLayer(context->gl()).draw(snapshot, {{{5.0, 5.0}, 20.0}, kSize}, {kDarkTheme});
+    const Canvas canvas = blank_canvas(context->gl(), kWallSize);
+    WallLayer(context->gl()).draw(snapshot, {{{5.0, 5.0}, 20.0}, kWallSize}, {kDarkTheme});
     const Image image = canvas.read();
     const int face = 50 + static_cast<int>(10.0 * displacement);
     CHECK(difference(pixel(image, face + 2, 150), kDarkTheme.background) > 30);

@@ -14,11 +14,11 @@ using namespace testing;
 
 namespace {
 
-constexpr Size kSize{16, 12};
+constexpr Size kFrameSize{16, 12};
 constexpr std::size_t kBytes = 16 * 12 * 4;
 
 Image grey(int value) {
-  Image image{kSize, std::vector<unsigned char>(kBytes, static_cast<unsigned char>(value))};
+  Image image{kFrameSize, std::vector<unsigned char>(kBytes, static_cast<unsigned char>(value))};
   for (std::size_t i = 3; i < kBytes; i += 4) image.rgba[i] = 255;
   return image;
 }
@@ -42,7 +42,7 @@ std::vector<int> greys_of(const std::string& input) {
 TEST_CASE("Frame sinks: pictures that wait for encoders come whole and in order") {
   const TemporaryFolder folder;
   SinkOptions options;
-  options.size = kSize;
+  options.size = kFrameSize;
   std::vector<int> shown(2 * FrameSink::kPiece + 7);
   std::iota(shown.begin(), shown.end(), 1);
   {
