@@ -132,13 +132,13 @@ bool EventLoop<D>::within_contact_time(std::uint32_t number) const {
 template <int D>
 ParticleChange<D> EventLoop<D>::change_of(std::uint32_t number, const Vec<D>& position,
                                           const Vec<D>& velocity, const Impulse<D>& gain) const {
-  const double half_inertia = 0.5 * moment_of_inertia(model_.inertia, model_.diameter);
-  const Spin<D> w = spin(number);
-  ParticleChange<D> change{number, gas_.particles[number].flight, position, velocity, w, gain};
-  // Without the rounding of a difference of two squares.
-  change.energy = 0.5 * gain.momentum.dot(gain.momentum + 2.0 * velocity) +
-                  half_inertia * gain.spin.dot(gain.spin + 2.0 * w);
-  return change;
+  return {number,
+          gas_.particles[number].flight,
+          position,
+          velocity,
+          spin(number),
+          gain,
+          moment_of_inertia(model_.inertia, model_.diameter)};
 }
 
 template <int D>
@@ -166,12 +166,9 @@ void EventLoop<D>::collide(std::uint32_t first, std::uint32_t second, const IntV
   if (!observers_.empty()) {
     const bool swap = second < first;
     PairCollision<D> collision{
-        now_,
-        {change_of(first, r_a, v_a, gain), change_of(second, r_b, v_b, loss)},
-        swap ? Vec<D>(-x) : x,
-        outcome.elasticised,
-        outcome.undissipated};
-    if (swap) std::swap(collision.particles[0], collision.particles[1]);
+        now_, {}, x * (swap ? -1.0 : 1.0), outcome.elasticised, outcome.undissipated};
+    collision.particles[swap] = change_of(first, r_a, v_a, gain);
+    collision.particles[!swap] = change_of(second, r_b, v_b, loss);
     for (Observer<D>* observer : observers_) observer->on_collision(collision);
   }
   --until_base_moves_;

@@ -10,7 +10,7 @@
 
 namespace clatter {
 
-/// State of one particle before an event, and its gain in the event.
+/// State of one particle of mass 1 before an event, and its gain in the event.
 template <int D>
 struct ParticleChange {
   std::uint32_t particle = 0;
@@ -19,7 +19,14 @@ struct ParticleChange {
   Vec<D> velocity = Vec<D>::Zero();  ///< just before
   Spin<D> spin = Spin<D>::Zero();    ///< just before; 0 without spins
   Impulse<D> gain;                   ///< of momentum and of spin
-  double energy = 0.0;               ///< gain in kinetic energy, of motion and of spin
+  double moment_of_inertia = 0.0;
+
+  /// Gain in kinetic energy, of motion and of spin, without the rounding of a difference of two
+  /// squares.
+  double energy() const {
+    return 0.5 * gain.momentum.dot(gain.momentum + 2.0 * velocity) +
+           0.5 * moment_of_inertia * gain.spin.dot(gain.spin + 2.0 * spin);
+  }
 };
 
 /// A collision of two particles, the lower number first.

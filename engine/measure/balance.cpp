@@ -23,7 +23,7 @@ static void add(Booked<D>& booked, const Conserved<D>& amount) {
 // Change of a particle's conserved quantities in an event.
 template <int D>
 static Conserved<D> given(const ParticleChange<D>& change) {
-  return conserved<D>(0.0, change.gain.momentum, change.energy);
+  return conserved<D>(0.0, change.gain.momentum, change.energy());
 }
 
 template <int D>

@@ -171,10 +171,10 @@ void CellIntegrals<D>::on_collision(const PairCollision<D>& collision) {
   end_flight(b, collision.time);
   // The periodic image of the partner in contact.
   const Vec<D> partner = a.position - collision.separation;
-  add_transfer(partner, collision.separation, a.gain.momentum, 0.5 * (a.energy - b.energy));
+  add_transfer(partner, collision.separation, a.gain.momentum, 0.5 * (a.energy() - b.energy()));
   // Without dissipation zeta is exactly 0, not the rounding of energies that cancel.
   if (layout_.dissipation >= 0 && dissipates_ && !collision.elasticised) {
-    const double lost = 0.5 * (a.energy + b.energy);
+    const double lost = 0.5 * (a.energy() + b.energy());
     add_dissipation(a.position, lost);
     add_dissipation(partner, lost);
   }
@@ -189,7 +189,7 @@ void CellIntegrals<D>::on_wall(const WallCollision<D>& collision) {
   Vec<D> branch = Vec<D>::Zero();
   branch[collision.side / 2] =
       0.5 * simulation_.model().diameter * Boundary<D>::inward(collision.side);
-  add_transfer(particle.position - branch, branch, particle.gain.momentum, particle.energy);
+  add_transfer(particle.position - branch, branch, particle.gain.momentum, particle.energy());
 }
 
 template <int D>

@@ -75,7 +75,7 @@ void Totals<D>::on_collision(const PairCollision<D>& collision) {
   for (const ParticleChange<D>& particle : collision.particles) change(particle, collision.time);
   window_.collisions += 1.0;
   window_.elasticised += collision.elasticised;
-  const double gained = collision.particles[0].energy + collision.particles[1].energy;
+  const double gained = collision.particles[0].energy() + collision.particles[1].energy();
   book(gained);
   window_.dissipated -= gained;
   window_.undissipated += collision.undissipated;
@@ -85,8 +85,8 @@ void Totals<D>::on_collision(const PairCollision<D>& collision) {
 template <int D>
 void Totals<D>::on_wall(const WallCollision<D>& collision) {
   change(collision.particle, collision.time);
-  book(collision.particle.energy);
-  window_.walls_in += collision.particle.energy;
+  book(collision.particle.energy());
+  window_.walls_in += collision.particle.energy();
   window_.wall_impulse[collision.side] +=
       std::fabs(collision.particle.gain.momentum[collision.side / 2]);
 }
@@ -94,9 +94,9 @@ void Totals<D>::on_wall(const WallCollision<D>& collision) {
 template <int D>
 void Totals<D>::on_kick(const Kick<D>& kick) {
   change(kick.particle, kick.time);
-  book(kick.particle.energy);
+  book(kick.particle.energy());
   double& in = kick.cause == KickCause::Nudge ? window_.nudges_in : window_.bulk_in;
-  in += kick.particle.energy;
+  in += kick.particle.energy();
 }
 
 template <int D>

@@ -42,7 +42,7 @@ template <int D>
 double dissipated(const PairCollision<D>& collision, const Model<D>& model) {
   constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
   const auto& [first, second] = collision.particles;
-  const double loss = -(first.energy + second.energy);
+  const double loss = -(first.energy() + second.energy());
   const double energy = energy_before(first, model.inertia) + energy_before(second, model.inertia);
   return collision.elasticised || loss < kRounding * energy ? 0.0 : loss;
 }

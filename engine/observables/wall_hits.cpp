@@ -64,7 +64,7 @@ void WallHits<D>::on_wall(const WallCollision<D>& collision) {
   std::vector<double>& sums = sums_.values;
   sums[first + HitSums<D>::kCount] += 1.0;
   sums[first + HitSums<D>::kIncomingSpeed] += std::fabs(before);
-  sums[first + HitSums<D>::kEnergyGain] += change.energy;
+  sums[first + HitSums<D>::kEnergyGain] += change.energy();
   sums[HitSums<D>::incoming_of(collision.side) + LogBins::of(std::fabs(before))] += 1.0;
   sums[HitSums<D>::outgoing_of(collision.side) + LogBins::of(std::fabs(after))] += 1.0;
 }

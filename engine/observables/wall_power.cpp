@@ -62,7 +62,7 @@ void WallPower<D>::restore(ArchiveReader& io) {
 
 template <int D>
 void WallPower<D>::on_wall(const WallCollision<D>& collision) {
-  energy_[static_cast<std::size_t>(collision.side)] += collision.particle.energy;
+  energy_[static_cast<std::size_t>(collision.side)] += collision.particle.energy();
 }
 
 template <int D>
