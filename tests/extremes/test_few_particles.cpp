@@ -197,7 +197,7 @@ class Images : public Observer<D> {
     const double loss =
         dissipated_energy<D>(c.separation, c.particles[0].velocity - c.particles[1].velocity,
                              c.particles[0].spin + c.particles[1].spin, law, model_.inertia, 1.0);
-    const double lost = -(c.particles[0].energy + c.particles[1].energy);
+    const double lost = -(c.particles[0].energy() + c.particles[1].energy());
     worst_loss = std::max(worst_loss, std::fabs(lost - loss));
   }
 

@@ -64,10 +64,10 @@ class Ledger : public Observer<D> {
  public:
   double particles = 0.0, walls = 0.0, kicks = 0.0;
   void on_collision(const PairCollision<D>& c) override {
-    particles += c.particles[0].energy + c.particles[1].energy;
+    particles += c.particles[0].energy() + c.particles[1].energy();
   }
-  void on_wall(const WallCollision<D>& c) override { walls += c.particle.energy; }
-  void on_kick(const Kick<D>& k) override { kicks += k.particle.energy; }
+  void on_wall(const WallCollision<D>& c) override { walls += c.particle.energy(); }
+  void on_kick(const Kick<D>& k) override { kicks += k.particle.energy(); }
 };
 
 // 100 inelastic particles between driven walls, kicked as well.

@@ -89,7 +89,7 @@ class EventHash final : public Observer<D> {
     for (const double r : change.position) add(r);
     for (const double v : change.velocity) add(v);
     for (const double p : change.gain.momentum) add(p);
-    add(change.energy);
+    add(change.energy());
   }
 
   std::uint64_t hash_ = 1;

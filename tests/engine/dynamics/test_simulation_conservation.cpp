@@ -39,7 +39,7 @@ TEST_CASE("Conservation: collisions take the energy that the gas loses") {
       const double g_n =
           c.separation.dot(c.particles[0].velocity - c.particles[1].velocity) / c.separation.norm();
       taken += 0.25 * (1.0 - 0.9 * 0.9) * g_n * g_n;
-      booked += c.particles[0].energy + c.particles[1].energy;
+      booked += c.particles[0].energy() + c.particles[1].energy();
     }
   } ledger;
   Model<2> model = periodic_box(20.0, 15.0);

@@ -56,7 +56,7 @@ template <int D>
 class WallEnergies : public Observer<D> {
  public:
   void on_wall(const WallCollision<D>& collision) override {
-    energies_[collision.side] += collision.particle.energy;
+    energies_[collision.side] += collision.particle.energy();
   }
   std::map<int, double> take() { return std::exchange(energies_, {}); }
 
