@@ -48,7 +48,7 @@ bool Gallery::draw_card(const Entry& entry, bool selected, Controls& controls) {
     ImGui::GetWindowDrawList()->AddImageRounded(
         reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)),
         ImVec2(corner.x + edge, corner.y + edge),
-        ImVec2(corner.x + edge + wide, corner.y + edge + tall), ImVec2(0, 0), ImVec2(1, 1),
+        ImVec2(corner.x + edge + wide, corner.y + edge + tall), ImVec2(0, 1), ImVec2(1, 0),
         IM_COL32_WHITE, 0.3f * unit);
   }
   ImGui::SetCursorPos(ImVec2(left, at.y + edge));

@@ -269,7 +269,9 @@ void Gui::observable_plots(float height) {
                    "start with the run, and again when laws change",
                    titles, chosen, 0);
   const auto index = static_cast<std::size_t>(chosen);
-  observable_ = titles[index];
+  if (std::exchange(observable_, titles[index]) != titles[index]) {
+    log_.event("observable", {{"table", observable_}});
+  }
   for (const LivePlot& plot : table_plots((*tables)[index], panel_theme(shown_view()))) {
     draw_plot(plot, height);
     ImGui::Spacing();

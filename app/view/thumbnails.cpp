@@ -63,13 +63,17 @@ void Thumbnails::draw() {
   if (!renderer_) renderer_.emplace(*gl_);
   renderer_->fix(range_ends(gas, view_));
   renderer_->draw(gas, renderer_->fit(gas, kSize, view_, {}), kSize, view_, {});
-  const Image picture = canvas.read();
   Texture texture = generate<Texture>(*gl_, gl_->GenTextures);
   gl_->BindTexture(GL_TEXTURE_2D, texture.id());
   gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, kSize.width, kSize.height, 0, GL_RGBA,
-                  GL_UNSIGNED_BYTE, picture.rgba.data());
+                  GL_UNSIGNED_BYTE, nullptr);
+  const Framebuffer framebuffer = generate<Framebuffer>(*gl_, gl_->GenFramebuffers);
+  gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+  gl_->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.id(), 0);
+  // Reading the pixels would wait until all earlier pictures are drawn.
+  canvas.copy_to(framebuffer.id());
   gl_->BindFramebuffer(GL_FRAMEBUFFER, 0);
   textures_[making_->name] = std::move(texture);
 }

@@ -22,8 +22,8 @@ class Thumbnails {
 
   explicit Thumbnails(const Gl& gl) : gl_(&gl) {}
 
-  /// The texture with the picture of a gallery scene; 0: not ready, or failed. The first request
-  /// for a scene starts its picture if no other is being made.
+  /// The texture with the picture of a gallery scene, lowest row first; 0: not ready, or failed. The
+  /// first request for a scene starts its picture if no other is being made.
   GLuint of(const EmbeddedFile& scene);
   /// Continues the present picture for about `budget`.
   void work(std::chrono::milliseconds budget);

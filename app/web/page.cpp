@@ -9,6 +9,7 @@
 #include <cfloat>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -54,6 +55,43 @@ void map_keys(ImGuiIO& io) {
   for (const auto& [own, key] : kKeys) io.KeyMap[own] = key;
 }
 
+// Events of the pointer that no picture has shown yet. A change of the buttons has a picture of its
+// own, so that a press has its place, and a drag between two pictures is a drag.
+class PointerQueue {
+ public:
+  struct State {
+    ImVec2 place;
+    int buttons;         // one bit a button
+    float wheel;         // steps
+    bool jumps = false;  // without a motion to this place
+  };
+
+  void add(const State& state) { states_.push_back(state); }
+  bool empty() const { return states_.empty(); }
+  // The buttons of the last event.
+  int buttons() const { return states_.empty() ? buttons_ : states_.back().buttons; }
+
+  // Gives Dear ImGui the events of the next picture.
+  void advance(ImGuiIO& io) {
+    for (bool moved = false; !states_.empty(); moved = true) {
+      const State& next = states_.front();
+      const bool changed = next.buttons != buttons_;
+      if (changed && moved) return;
+      io.MousePos = next.place;
+      if (next.jumps) io.MousePosPrev = next.place;
+      io.MouseWheel += next.wheel;
+      for (int k = 0; k < 3; ++k) io.MouseDown[k] = (next.buttons >> k & 1) != 0;
+      buttons_ = next.buttons;
+      states_.pop_front();
+      if (changed) return;
+    }
+  }
+
+ private:
+  std::deque<State> states_;
+  int buttons_ = 0;  // of the last picture
+};
+
 class Page {
  public:
   explicit Page(bool logs) : log_(logs ? "/dev/stdout" : "") {
@@ -96,22 +134,12 @@ class Page {
   }
 
   void point(float x, float y, int buttons, float wheel) {
-    ImGuiIO& io = ImGui::GetIO();
-    io.MousePos = ImVec2(x, y);
-    // A button that is released before the next picture is seen as pressed in it.
-    for (int k = 0; k < 3; ++k) {
-      held_[k] = (buttons >> k & 1) != 0;
-      pressed_[k] |= held_[k];
-    }
-    io.MouseWheel += wheel;
+    pointer_.add({ImVec2(x, y), buttons, wheel});
     settle();
   }
 
   // Moves the pointer without a motion between.
-  void place(float x, float y) {
-    ImGuiIO& io = ImGui::GetIO();
-    io.MousePos = io.MousePosPrev = ImVec2(x, y);
-  }
+  void place(float x, float y) { pointer_.add({ImVec2(x, y), pointer_.buttons(), 0.0f, true}); }
 
   // Moves the content of the panel at a place, pixels downwards.
   void scroll(float x, float y, float pixels) {
@@ -152,13 +180,14 @@ class Page {
     const auto now = Clock::now();
     const double since = std::chrono::duration<double>(now - std::exchange(last_, now)).count();
     io.DeltaTime = static_cast<float>(std::clamp(since, 1e-4, 0.1));
-    for (int k = 0; k < 3; ++k) io.MouseDown[k] = std::exchange(pressed_[k], held_[k]);
+    pointer_.advance(io);
     // Browsers clear the canvas before its first draw call, but not before a copy into it.
     const Gl& gl = context_.gl();
     gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
     gl.Clear(GL_COLOR_BUFFER_BIT);
     gui_.draw();
-    if (lifted_ && !io.MouseDown[0] && !io.MouseDown[1]) {
+    if (!pointer_.empty()) settle();
+    if (lifted_ && pointer_.empty() && !io.MouseDown[0] && !io.MouseDown[1]) {
       io.MousePos = ImVec2(-FLT_MAX, -FLT_MAX);
       lifted_ = false;
       settle();
@@ -187,7 +216,7 @@ class Page {
   CurrentContext current_{imgui_.get()};
   SlicedWorker engine_;
   Gui gui_{host_, context_.gl(), input_, engine_, log_};
-  bool held_[3] = {}, pressed_[3] = {};  // mouse buttons now, and since the last picture
+  PointerQueue pointer_;
   bool opened_ = false;
   bool lifted_ = false;
   int left_ = 0;

@@ -6,6 +6,7 @@
 #include "app/view/thumbnails.h"
 #include "render/context/context.h"
 #include "render/gl/canvas.h"
+#include "render/theme.h"
 
 namespace clatter {
 
@@ -52,6 +53,8 @@ view.colour_by = "none"
   const auto flat = colours_of(context->gl(), thumbnails, disks);
   const auto shaded = colours_of(context->gl(), thumbnails, spheres);
   CHECK(flat.size() > 2);
+  const Colour ground = theme_of(View{}).background;
+  CHECK(flat.contains(ground.red + 256u * ground.green + 65536u * ground.blue));
   CHECK(shaded.size() > 2 * flat.size());
 }
 

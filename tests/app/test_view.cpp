@@ -381,13 +381,14 @@ TEST_CASE("Window: the plots list the observables of the scene, of disks and of 
                            " --set view.speed=10 --set "
                            "'measure.observables=[\"probe\",\"collisions\"]'");
     driver.key("p");
-    driver.click("plots.observable");
-    std::size_t told = driver.told();
-    driver.click("plots.observable.collisions, normal speed");
-    driver.wait_for("status", told);
-    // The list opens again with the same tables.
-    driver.click("plots.observable");
-    driver.click("plots.observable.probe, series");
+    CHECK(driver.wait_for("observable")["table"] == "probe, series");
+    for (const char* table : {"collisions, normal speed", "probe, series"}) {
+      CAPTURE(table);
+      driver.click("plots.observable");
+      const std::size_t told = driver.told();
+      driver.click(std::string("plots.observable.") + table);
+      CHECK(driver.wait_for("observable", told)["table"] == table);
+    }
     CHECK(driver.wait_for("status")["run"] == 1);
   }
 }
