@@ -54,23 +54,23 @@ struct ObservablePrice {
   double surcharge;
 };
 constexpr std::array<ObservablePrice, 17> kObservablePrices = {
-    {{ObservableKind::RadialDistribution, 0.42},
-     {ObservableKind::VelocityDistribution, 0.09},
-     {ObservableKind::FreeFlights, 0.17},
-     {ObservableKind::Collisions, 0.22},
-     {ObservableKind::WallHits, 0.12},
-     {ObservableKind::MeanSquaredDisplacement, 0.35},
-     {ObservableKind::VelocityAutocorrelation, 0.1},
-     {ObservableKind::StructureFactor, 7.8},
-     {ObservableKind::Clusters, 0.46},
-     {ObservableKind::BondOrder, 0.58},
-     {ObservableKind::WallPower, 0.13},
-     {ObservableKind::PlaneCurrent, 0.23},
-     {ObservableKind::LocalDensity, 0.07},
-     {ObservableKind::SpinDistribution, 0.18},
-     {ObservableKind::Probe, 0.07},
-     {ObservableKind::CollisionCounts, 0.28},
-     {ObservableKind::RadialDistributionProfile, 0.68}}};
+    {{ObservableKind::RadialDistribution, 0.28},
+     {ObservableKind::VelocityDistribution, 0.07},
+     {ObservableKind::FreeFlights, 0.12},
+     {ObservableKind::Collisions, 0.17},
+     {ObservableKind::WallHits, 0.04},
+     {ObservableKind::MeanSquaredDisplacement, 0.2},
+     {ObservableKind::VelocityAutocorrelation, 0.08},
+     {ObservableKind::StructureFactor, 11.7},
+     {ObservableKind::Clusters, 0.5},
+     {ObservableKind::BondOrder, 0.62},
+     {ObservableKind::WallPower, 0.06},
+     {ObservableKind::PlaneCurrent, 0.12},
+     {ObservableKind::LocalDensity, 0.05},
+     {ObservableKind::SpinDistribution, 0.19},
+     {ObservableKind::Probe, 0.09},
+     {ObservableKind::CollisionCounts, 0.22},
+     {ObservableKind::RadialDistributionProfile, 0.74}}};
 
 FeatureCost observables_of(const Scene& scene) {
   const Measure& measure = scene.measure;
