@@ -48,7 +48,8 @@ FeatureCost fields_of(const Scene& scene) {
           price};
 }
 
-// Price of an observable, minus 1. Samples are priced at one sample per mean free time.
+// Price of an observable, minus 1, by `clatter bench features`. Samples are priced at one sample
+// per mean free time, and wall hits beside a gas with the same walls.
 struct ObservablePrice {
   ObservableKind kind;
   double surcharge;

@@ -19,7 +19,7 @@ struct ParticleChange {
   Vec<D> velocity = Vec<D>::Zero();  ///< just before
   Spin<D> spin = Spin<D>::Zero();    ///< just before; 0 without spins
   Impulse<D> gain;                   ///< of momentum and of spin
-  double moment_of_inertia = 0.0;
+  double moment_of_inertia = 0.0;    ///< about the centre, mass times length^2
 
   /// Gain in kinetic energy, of motion and of spin, without the rounding of a difference of two
   /// squares.

@@ -26,7 +26,7 @@ Scene everything() {
   return scene;
 }
 
-Measure measure_residuals(std::vector<Field> fields) {
+Measure residual_settings(std::vector<Field> fields) {
   Measure measure;
   measure.burn_in = 3.3;
   measure.duration = 52.0;
@@ -92,7 +92,7 @@ TEST_CASE("Residuals: those beyond rounding are an error, which says how large t
 }
 
 TEST_CASE("Measurement: balances close where residuals are asked for, and only there") {
-  const Measured balanced = measured(everything(), measure_residuals(kBalance));
+  const Measured balanced = measured(everything(), residual_settings(kBalance));
   REQUIRE(balanced.residuals);
   CHECK(balanced.residuals->equations[0].size() == 20);
   CHECK(balanced.residuals->largest()[0] == 0.0);
@@ -101,29 +101,29 @@ TEST_CASE("Measurement: balances close where residuals are asked for, and only t
   CHECK(std::ranges::max(balanced.residuals->largest()) < 1e-12);
   CHECK_FALSE(balanced.profile);
 
-  const Measured averaged = measured(everything(), measure_residuals({Quantity::Density}));
+  const Measured averaged = measured(everything(), residual_settings({Quantity::Density}));
   CHECK_FALSE(averaged.residuals);
   CHECK(averaged.profile);
 
   std::vector<Field> fields = kBalance;
   fields.push_back(Quantity::Density);
-  const Measured both = measured(everything(), measure_residuals(fields));
+  const Measured both = measured(everything(), residual_settings(fields));
   CHECK(both.residuals->equations == balanced.residuals->equations);
   CHECK(both.profile->fields == std::vector{Field(Quantity::Density)});
   CHECK(both.temperature.mean == averaged.temperature.mean);
-  CHECK_FALSE(measured(gas(9.0, 8.0, 0, 1.0), measure_residuals(kBalance)).residuals);
+  CHECK_FALSE(measured(gas(9.0, 8.0, 0, 1.0), residual_settings(kBalance)).residuals);
 }
 
 TEST_CASE("Measurement: residuals have maps over the whole time, after the maps of averages") {
   std::vector<Field> fields = kBalance;
   fields.push_back(Quantity::Density);
-  const Measured both = measured(everything(), measure_residuals(fields));
+  const Measured both = measured(everything(), residual_settings(fields));
   REQUIRE(both.maps->maps.size() == 5);
   CHECK(both.maps->maps[0].field == Quantity::Density);
   CHECK(both.maps->maps[4].field == Quantity::BalanceEnergy);
   CHECK(both.map_series[0].maps.size() == 1);
 
-  const Measured alone = measured(everything(), measure_residuals(kBalance));
+  const Measured alone = measured(everything(), residual_settings(kBalance));
   CHECK(alone.map_series.empty());
   CHECK(alone.maps->begin == both.maps->begin);
   CHECK(alone.maps->end == both.maps->end);
@@ -138,7 +138,7 @@ TEST_CASE("Measurement: residuals have maps over the whole time, after the maps 
 
 // 32 averaging windows form one window of the balance. Of 520, 8 remain for the last one.
 TEST_CASE("Measurement: residuals are of all the time after the burn-in") {
-  const Measure measure = measure_residuals(kBalance);
+  const Measure measure = residual_settings(kBalance);
   const auto simulation = simulation_of<2>(everything(), 61);
   const double window = measure.duration / 520.0;
   std::optional<Balance<2>> balance;
@@ -159,7 +159,7 @@ TEST_CASE("Measurement: residuals are of all the time after the burn-in") {
 }
 
 TEST_CASE("Measurement: snapshots leave the balance as it is") {
-  Measure measure = measure_residuals(kBalance);
+  Measure measure = residual_settings(kBalance);
   const auto exact = measured(everything(), measure).residuals->equations;
   measure.estimator = Estimator::Snapshot;
   measure.interval = 0.7;
