@@ -23,7 +23,8 @@ void FilmCell::show_card(double seconds) {
 
 Image FilmCell::draw(const Snapshot& snapshot, const Camera& whole) {
   canvas_.bind();
-  renderer_.draw(snapshot, camera_at(view_.camera, snapshot, whole), canvas_.size(), view_, text_);
+  renderer_.draw(snapshot, camera_at(view_.camera, snapshot, whole), canvas_.size(), view_, text_,
+                 ranges_.legends(snapshot, view_));
   return canvas_.read();
 }
 

@@ -18,10 +18,10 @@ class FilmCell {
 
   const View& view() const { return view_; }
   /// Fixes the ends of the automatic colour ranges.
-  void fix(const RangeEnds& ends) { renderer_.fix(ends); }
+  void fix(const RangeEnds& ends) { ranges_.fix(ends); }
   /// The camera that shows the whole box.
   Camera fit(const Snapshot& snapshot) {
-    return renderer_.fit(snapshot, canvas_.size(), view_, text_);
+    return renderer_.fit(snapshot, canvas_.size(), view_, text_, ranges_.legends(snapshot, view_));
   }
   /// Sets the title card to its state `seconds` after the start of the film.
   void show_card(double seconds);
@@ -33,6 +33,7 @@ class FilmCell {
   OverlayText text_;
   Canvas canvas_;
   Renderer renderer_;
+  AutoRanges ranges_;
 };
 
 /// The largest number of cells in a picture.

@@ -22,6 +22,7 @@ class Desktop final : public Host {
   void copy(const std::string& text) override;
   void toggle_full_screen() override;
   void close() override;
+  bool has_user_files() const override { return true; }
   void deliver(const std::string&) override {}
   std::string link_to(const std::string&) const override { return {}; }
   bool has_processes() const override { return true; }

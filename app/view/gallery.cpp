@@ -11,7 +11,7 @@
 
 namespace clatter {
 
-Gallery::Gallery(const Gl& gl) : thumbnails_(gl) {
+Gallery::Gallery(const Gl& gl, Renderer& renderer) : thumbnails_(gl, renderer) {
   for (const EmbeddedFile& file : embedded_scenes()) {
     const Scene scene = load_gallery_scene(file);
     entries_.push_back({&file, std::string(file.name.substr(0, file.name.rfind('.'))), scene.title,

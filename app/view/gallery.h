@@ -13,7 +13,8 @@ namespace clatter {
 /// The gallery: a list of the built-in scenes, in the order of `clatter scenes`.
 class Gallery {
  public:
-  explicit Gallery(const Gl& gl);
+  /// The renderer draws the pictures of scenes. It must outlive the gallery.
+  Gallery(const Gl& gl, Renderer& renderer);
 
   /// Draws the gallery over a window of `width` x `height`. Arrow keys move the selection, Enter
   /// chooses. A button sets `open` to false. Returns the chosen scene; null: none.

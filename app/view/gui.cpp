@@ -33,7 +33,7 @@ Gui::Gui(Host& host, const Gl& gl, WindowInput& input, EngineLink& engine, Scrip
       session_(engine, log),
       controls_(session_, log),
       viewport_(gl),
-      gallery_(gl),
+      gallery_(gl, viewport_.renderer()),
       gui_(gl) {}
 
 void Gui::open(const Scene& scene, std::uint64_t seed, std::optional<double> until) {
@@ -167,8 +167,16 @@ void Gui::left_panel(float top, float width) {
   ImGui::Begin("left", nullptr, kFixedPanel);
   all_controls();
   record();
-  if (controls_.group("Window")) scale_slider();
+  if (controls_.group("Window")) window_controls();
   ImGui::End();
+}
+
+void Gui::window_controls() {
+  scale_slider();
+  if (controls_.button("full_screen", "Full screen", "Enter or leave (F11)",
+                       ImGui::GetContentRegionAvail().x)) {
+    host_.toggle_full_screen();
+  }
 }
 
 // The buttons of the record panel and their actions.

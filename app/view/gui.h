@@ -92,6 +92,7 @@ class Gui {
   bool choose_sliders(Lecture& lecture);
   bool choose_lecture_plot(Lecture& lecture);
   void scale_slider();
+  void window_controls();
   bool use_pen(bool over);
   void paint_ink(ImDrawList& list, bool over) const;
   void step_scene(int step);

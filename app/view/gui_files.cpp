@@ -71,15 +71,18 @@ static std::string free_name(const std::string& extension) {
   }
 }
 
-// The scene on screen. A start state without a file is written beside `file`, as .csv.
+// The scene on screen. A start state that no file of the user has is written beside `file`, as .csv.
+// Start states of the gallery are not files.
 Scene Gui::recorded_beside(const std::string& file) const {
   Scene scene = session_.recorded();
   scene.view.theme = shown_view().theme;
   Start& start = scene.particles.start;
-  if (start.layout == Layout::File && start.file.empty()) {
+  const bool copied = !host_.has_user_files() && std::filesystem::exists(start.file);
+  if (start.layout == Layout::File && (start.file.empty() || copied)) {
     start.file = std::filesystem::path(file).replace_extension(".csv");
     write_file(start.file,
                std::visit([](const auto& state) { return state_to_csv(state); }, start.state));
+    host_.deliver(start.file);
   }
   return scene;
 }

@@ -92,7 +92,7 @@ void Gui::sheet() {
       break;
     case Sheet::View:
       view_panel(session_, controls_);
-      scale_slider();
+      window_controls();
       break;
     case Sheet::Record:
       record();
@@ -125,6 +125,7 @@ void Gui::chosen_controls() {
   play_row(session_, controls_);
   all_controls();
   record();
+  window_controls();
   const float end = ImGui::GetCursorPosY();
   const bool empty = end == start;
   strip_ = empty ? 0.0f : end - ImGui::GetStyle().ItemSpacing.y + ImGui::GetStyle().WindowPadding.y;

@@ -39,7 +39,9 @@ class Host {
   virtual void toggle_full_screen() = 0;
   /// Closes the window.
   virtual void close() = 0;
-  /// Gives a written file to the user, if files of the program are not yet those of the user.
+  /// Whether the files of the program are those of the user.
+  virtual bool has_user_files() const = 0;
+  /// Gives a written file to the user, unless the user has it already.
   virtual void deliver(const std::string& file) = 0;
   /// The address that opens this window with a fragment of link_of(); empty: there is none.
   virtual std::string link_to(const std::string& fragment) const = 0;

@@ -60,8 +60,6 @@ void Thumbnails::draw() {
   const Snapshot& gas = frame.snapshot;
   const Canvas canvas(*gl_, kSize);
   canvas.bind();
-  if (!renderer_) renderer_.emplace(*gl_);
-  renderer_->fix(range_ends(gas, view_));
   renderer_->draw(gas, renderer_->fit(gas, kSize, view_, {}), kSize, view_, {});
   Texture texture = generate<Texture>(*gl_, gl_->GenTextures);
   gl_->BindTexture(GL_TEXTURE_2D, texture.id());

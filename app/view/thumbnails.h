@@ -20,10 +20,11 @@ class Thumbnails {
  public:
   static constexpr Size kSize = {192, 144};  ///< size of the pictures
 
-  explicit Thumbnails(const Gl& gl) : gl_(&gl) {}
+  /// The renderer draws the pictures. It must outlive the thumbnails.
+  Thumbnails(const Gl& gl, Renderer& renderer) : gl_(&gl), renderer_(&renderer) {}
 
-  /// The texture with the picture of a gallery scene, lowest row first; 0: not ready, or failed. The
-  /// first request for a scene starts its picture if no other is being made.
+  /// The texture with the picture of a gallery scene, lowest row first; 0: not ready, or failed.
+  /// The first request for a scene starts its picture if no other is being made.
   GLuint of(const EmbeddedFile& scene);
   /// Continues the present picture for about `budget`.
   void work(std::chrono::milliseconds budget);
@@ -35,7 +36,7 @@ class Thumbnails {
   void draw();
 
   const Gl* gl_;
-  std::optional<Renderer> renderer_;                             // from the first picture on
+  Renderer* renderer_;
   std::map<std::string_view, std::optional<Texture>> textures_;  // absent: failed
   const EmbeddedFile* making_ = nullptr;                         // scene of the run; null: none
   View view_;                                                    // of that scene

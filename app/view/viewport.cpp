@@ -30,7 +30,7 @@ void Viewport::draw(const Frame& frame, const View& view, Size size, double lett
                          letters,
                          least,
                          frame.speed};
-  const Legends legends = renderer_.legends(gas, view);
+  const Legends legends = ranges_.legends(gas, view);
   if (fits_) camera_ = renderer_.fit(gas, size, view, text, legends);
   if (gas.box.size() == 3) {
     camera_.orbit.azimuth = view.azimuth;

@@ -52,6 +52,8 @@ class Viewport {
   bool let_go();
   /// True after the first picture.
   bool drawn() const { return canvas_.has_value(); }
+  /// Draws the pictures. It may also draw other pictures of the window.
+  Renderer& renderer() { return renderer_; }
   /// Makes the next call of draw() redraw the picture.
   void redraw() { stale_ = true; }
 
@@ -71,6 +73,7 @@ class Viewport {
 
   const Gl* gl_;
   Renderer renderer_;
+  AutoRanges ranges_;
   std::optional<Canvas> canvas_;
   Camera camera_;
   bool fits_ = true;

@@ -172,6 +172,12 @@ class Page {
     settle();
   }
 
+  // Shows a message.
+  void tell(const char* message) {
+    gui_.tell(message);
+    settle();
+  }
+
   // Draws a picture. Returns whether the next one may differ without input.
   bool draw() {
     constexpr std::chrono::milliseconds kBudget{12};
@@ -294,5 +300,8 @@ EMSCRIPTEN_KEEPALIVE int clatter_wants_text() {
 }
 EMSCRIPTEN_KEEPALIVE void clatter_drop(const char* path) {
   page->drop(path);
+}
+EMSCRIPTEN_KEEPALIVE void clatter_tell(const char* message) {
+  page->tell(message);
 }
 }

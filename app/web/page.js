@@ -292,15 +292,22 @@ function on_input() {
 
 // ---- dropped scenes and pictures ----
 
+// A scene and its start state are dropped together, in any order.
 async function on_drop(event) {
   event.preventDefault();
   const largest = 20e6;  // bytes
+  const paths = [];
   for (const file of event.dataTransfer.files) {
-    if (file.size > largest) continue;
+    if (file.size > largest) {
+      text_of('clatter_tell', `${file.name} is larger than 20 MB, the limit of a page. Use the program.`);
+      continue;
+    }
     const path = '/dropped/' + file.name.replace(/[^\w.-]/g, '_');
     Module.FS.writeFile(path, new Uint8Array(await file.arrayBuffer()));
-    text_of('clatter_drop', path);
+    paths.push(path);
   }
+  const scenes = paths.filter((path) => !path.endsWith('.csv'));
+  for (const path of scenes.length ? scenes : paths) text_of('clatter_drop', path);
   wake();
 }
 

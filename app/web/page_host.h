@@ -22,6 +22,7 @@ class PageHost final : public Host {
   void copy(const std::string& text) override;
   void toggle_full_screen() override;
   void close() override {}
+  bool has_user_files() const override { return false; }
   void deliver(const std::string& file) override;
   bool has_processes() const override { return false; }
   std::string link_to(const std::string& fragment) const override;

@@ -18,6 +18,14 @@ PlaneMap plane_of(const Snapshot& snapshot) {
       map.cells[0], map.cells[1], {!snapshot.walls[kLeft], !snapshot.walls[kBottom]}, map.values};
 }
 
+FieldStyle style_of(Field field, const View& view) {
+  return is_residual(field) ? FieldStyle::Cells : view.field_style;
+}
+
+bool has_values(const FieldMap& map) {
+  return !std::ranges::all_of(map.values, [](double value) { return std::isnan(value); });
+}
+
 void FieldLayer::draw(const Snapshot& snapshot, const Projection& projection,
                       const ColourScale& scale, FieldStyle style, Colour gap) {
   texture_.bind(plane_of(snapshot), scale, style);

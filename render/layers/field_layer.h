@@ -10,6 +10,12 @@ namespace clatter {
 /// The field of a snapshot of disks.
 PlaneMap plane_of(const Snapshot& snapshot);
 
+/// The style of a heatmap. A residual belongs to its own cell, so it is not smoothed.
+FieldStyle style_of(Field field, const View& view);
+
+/// True if a heatmap has a value in some cell. False before the first average.
+bool has_values(const FieldMap& map);
+
 /// Draws a field as a heatmap over the box. In the style of cells those without a value are
 /// hatched.
 class FieldLayer {

@@ -22,7 +22,7 @@ struct Legend {
 /// Legend of the length of arrows.
 struct ArrowLegend {
   Label label;
-  double pixels = 1.0;  ///< pixels per unit of value; Renderer::legends: length in the scene
+  double pixels = 1.0;  ///< pixels per unit of value; AutoRanges::legends: length in the scene
 };
 
 /// All legends of a picture.

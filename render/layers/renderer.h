@@ -1,14 +1,13 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 
 #include "engine/publish/snapshot.h"
 #include "engine/stop_request.h"
 #include "render/camera.h"
-#include "render/colour_range.h"
 #include "render/gl/light_copy.h"
 #include "render/layers/arrow_layer.h"
+#include "render/layers/auto_ranges.h"
 #include "render/layers/average_layer.h"
 #include "render/layers/box_layer.h"
 #include "render/layers/disk_layer.h"
@@ -24,25 +23,7 @@
 
 namespace clatter {
 
-/// The ends of automatic colour ranges; 0: no data for the range.
-struct RangeEnds {
-  double disks = 0.0;
-  double field = 0.0;
-  double arrows = 0.0;
-};
-
-/// The round ends for a single snapshot.
-RangeEnds range_ends(const Snapshot& snapshot, const View& view);
-
-/// Passes over all members, in order, for checkpoints.
-template <class Archive>
-void visit(Archive& io, RangeEnds& range) {
-  auto& [disks, field, arrows] = range;
-  io(disks, field, arrows);
-}
-
-/// Draws snapshots into the bound framebuffer. Automatic colour ranges follow the sequence of
-/// snapshots unless they are fixed, so each film needs its own Renderer.
+/// Draws snapshots into the bound framebuffer.
 class Renderer {
  public:
   /// Compiles the shaders. Throws RunError if that fails. `gl` must outlive the renderer. All
@@ -51,45 +32,25 @@ class Renderer {
   /// premultiplied by alpha. A `stop` request ends the drawing of a large picture.
   explicit Renderer(const Gl& gl, int samples = 1, bool transparent = false, StopRequest stop = {});
 
-  /// Fixes the ends of the automatic colour ranges.
-  void fix(const RangeEnds& ends);
-
-  /// The legends of the next picture. Automatic colour ranges follow the snapshot.
-  Legends legends(const Snapshot& snapshot, const View& view);
-
   /// The camera that shows the whole box, inside the margins of the overlay.
   Camera fit(const Snapshot& snapshot, Size size, const View& view, const OverlayText& text,
              const Legends& legends);
-  /// The same, with the legends of the snapshot.
+  /// The same, with the legends of the snapshot alone.
   Camera fit(const Snapshot& snapshot, Size size, const View& view, const OverlayText& text) {
-    return fit(snapshot, size, view, text, legends(snapshot, view));
+    return fit(snapshot, size, view, text, AutoRanges().legends(snapshot, view));
   }
 
   /// Draws a picture of `size`. Throws RunError if OpenGL does not support the size times samples,
   /// and Interrupted after a stop request.
   void draw(const Snapshot& snapshot, const Camera& camera, Size size, const View& view,
             const OverlayText& text, Legends legends);
-  /// The same, with the legends of the snapshot.
+  /// The same, with the legends of the snapshot alone.
   void draw(const Snapshot& snapshot, const Camera& camera, Size size, const View& view,
             const OverlayText& text) {
-    draw(snapshot, camera, size, view, text, legends(snapshot, view));
+    draw(snapshot, camera, size, view, text, AutoRanges().legends(snapshot, view));
   }
 
  private:
-  /// Automatic colour range of one quantity.
-  struct Followed {
-    Label label;
-    SteadyExtent followed;
-    double fixed = 0.0;  ///< fixed end; 0: the end follows the snapshots
-
-    /// End of the range. Another label restarts it. `extent` returns the robust extent of the data,
-    /// and is called only if needed.
-    double end(const Label& shown, const std::function<double()>& extent, bool hold = false);
-
-    /// Legend for `range`. A locked range is held only if `lockable`.
-    Legend legend(const Label& shown, const ColourRange& range, ColourMap map,
-                  const std::function<double()>& extent, bool lockable);
-  };
   /// The layers of spheres, which pictures of disks do not need.
   struct SpaceLayers {
     SpaceLayers(const Gl& gl, Blending blending)
@@ -132,9 +93,6 @@ class Renderer {
   ArrowLayer arrows_;
   std::optional<SpaceLayers> space_;  ///< absent: no spheres drawn yet
   Overlay overlay_;
-  Followed disk_range_;
-  Followed field_range_;
-  Followed arrow_range_;
 };
 
 }  // namespace clatter

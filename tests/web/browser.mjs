@@ -138,6 +138,35 @@ export class Browser {
     return Buffer.from(data, 'base64');
   }
 
+  /// Runs a function. Resolves to the tasks of the page's thread meanwhile, each with its duration
+  /// and its processor time, {wall, processor}, in milliseconds.
+  async tasks(run) {
+    this.events.length = 0;
+    await this.send('Tracing.start', {transferMode: 'ReportEvents', categories: 'toplevel'});
+    await run();
+    await this.send('Tracing.end');
+    while (!this.events.some((event) => event.method === 'Tracing.tracingComplete')) await sleep(100);
+    const events = this.events.filter((event) => event.method === 'Tracing.dataCollected')
+        .flatMap((event) => event.params.value);
+    const thread = (event) => `${event.pid}:${event.tid}`;
+    const pages = events.filter((event) => event.args?.name === 'CrRendererMain').map(thread);
+    return events
+        .filter((event) => event.name.endsWith('RunTask') && event.dur && pages.includes(thread(event)))
+        .map((event) => ({wall: event.dur / 1000, processor: event.tdur / 1000}));
+  }
+
+  /// Leaves out the calls of WebGL that draw or copy pixels, until the page is left.
+  without_drawing() {
+    return this.value(`(() => {
+      const calls = WebGL2RenderingContext.prototype;
+      for (const name of ['drawArrays', 'drawElements', 'drawArraysInstanced', 'drawElementsInstanced',
+                          'bufferData', 'bufferSubData', 'texImage2D', 'texSubImage2D', 'blitFramebuffer',
+                          'clear', 'clearBufferfv', 'finish', 'flush']) {
+        calls[name] = () => {};
+      }
+    })()`);
+  }
+
   async stop() {
     await this.send('Browser.close').catch(() => {});
     await new Promise((done) => { this.process.on('exit', done); setTimeout(done, 3000); });

@@ -28,6 +28,9 @@ let browser, server, host;  // host serves pages of another origin
 const scratch_folder = mkdtempSync(join(tmpdir(), 'clatter-page-'));
 const scratch = (name) => join(scratch_folder, name);
 
+// The program, if it was built.
+const program = ['release', 'ci'].map((build) => join(process.env.CLATTER_BUILD || '', build, 'clatter'))
+    .find(existsSync);
 const has_ffmpeg = spawnSync('ffprobe', ['-version']).status === 0;
 
 // Runs a program, which must succeed.
@@ -66,6 +69,18 @@ async function drag(widget, share) {
   await browser.mouse('mouseReleased', x + share * width, y + height / 2);
 }
 
+// Presses a key of the keyboard.
+async function press(code, key, shift = false) {
+  const modifiers = shift ? 8 : 0;
+  await browser.send('Input.dispatchKeyEvent', {type: 'keyDown', code, key, text: key.length === 1 ? key : '', modifiers});
+  await sleep(100);
+  await browser.send('Input.dispatchKeyEvent', {type: 'keyUp', code, key, modifiers});
+}
+
+// The last status of a halted gas for which a condition holds. It has the hash of the state.
+const halted_where = (condition) => browser.until(
+    `log.map((line) => JSON.parse(line)).filter((e) => e.event === 'status' && e.hash && (${condition})).pop()`);
+
 // Scrolls the left panel until a widget is in the page.
 async function scroll_to(widget) {
   for (let turn = 0; turn < 40 && (await middle_of(widget))[1] > 700; ++turn) {
@@ -76,13 +91,62 @@ async function scroll_to(widget) {
 }
 
 async function click(widget) {
-  const [x, y] = await middle_of(widget);
+  await click_at(...await middle_of(widget));
+}
+
+async function click_at(x, y) {
   await browser.mouse('mouseMoved', x, y);
   await sleep(500);
   await browser.mouse('mousePressed', x, y, 1);
   await sleep(500);
   await browser.mouse('mouseReleased', x, y);
 }
+
+test('the gas steps forth and back, by frames and by collisions', async () => {
+  await open('vibrated', '&until=1');
+  const first = await halted_where('e.time === 1');
+  await click('collision');
+  const second = await halted_where(`e.collisions === ${first.collisions + 1}`);
+  await press('Period', ':', true);
+  const third = await halted_where(`e.collisions === ${first.collisions + 2}`);
+  assert.notEqual(third.hash, second.hash);
+  await press('Comma', ';', true);
+  await halted_where(`e.collisions === ${second.collisions} && e.hash === '${second.hash}'`);
+  await click('frame');
+  const framed = await halted_where(`e.time > ${third.time}`);
+  await press('Comma', ',');
+  await halted_where(`e.time < ${framed.time}`);
+});
+
+test('a click picks the particle under it, and a click beside it none', async () => {
+  await open('cradle', '&until=0');
+  const [x, y, width, height] = await place_of('viewport');
+  const picked = async (right, up) => {
+    await click_at(x + right * width, y + (0.5 - up) * height);
+    await sleep(300);
+    return (await last('pick'))?.particle ?? null;
+  };
+  // The row is in the middle of the box. Its disks have rising numbers from left to right.
+  const row = [];
+  for (const right of [0.3, 0.4, 0.5, 0.6]) {
+    row.push(await picked(right, 0));
+    assert.equal(await picked(right, -0.3), null);
+  }
+  assert.ok(row.every((disk, k) => disk !== null && (k === 0 || disk > row[k - 1])), row.join());
+});
+
+test('the key T hides the lesson of a scene, and shows it again', async () => {
+  await open('vibrated', '&until=0');
+  const height = async () => (await place_of('viewport'))[3];
+  const before = await height();
+  await press('KeyT', 't');
+  await sleep(1000);
+  const without = await height();
+  assert.ok(without > before + 20, `${before} became ${without}`);
+  await press('KeyT', 't');
+  await sleep(1000);
+  assert.equal(await height(), before);
+});
 
 // Errors of the browser since the last call: exceptions, and what it logs, such as errors of WebGL
 // and breaches of the Content-Security-Policy.
@@ -110,16 +174,18 @@ test('a link with a nudge, a caption and an observable has the state of native b
   assert.deepEqual(complaints(), []);
 });
 
-test('every scene of the gallery opens and moves', async () => {
-  await open('');
+test('every scene of the gallery has the state of native builds at t = 1', async () => {
   const names = process.env.CLATTER_SCENES.split(' ');
   assert.ok(names.length > 10);
   for (const name of names) {
-    await open(name);
-    const first = await last('status');
-    await browser.until(`JSON.parse(log.filter((line) => line.includes('"event":"status"')).pop()).time > ${first.time}`);
+    await open(`${name}&view.speed=100`, '&until=1');
+    const {hash} = await halted_where('e.time === 1');
     assert.deepEqual(complaints(), [], name);
+    if (!program) continue;
+    const {stdout} = execute(program, 'measure', name, '--until', '1', '--seed', '1', '--set', 'measure.burn_in=0.0');
+    assert.equal(hash, JSON.parse(stdout).state_hash, name);
   }
+  return program ? '' : ' (hashes skipped: needs a build of the program)';
 });
 
 test('a drag of the slider of restitution cools the gas', async () => {
@@ -436,8 +502,6 @@ test('an unknown control of an embedded gas is named with a suggestion', async (
 });
 
 test('an embedded gas without controls has the picture of the program', async () => {
-  const program = ['release', 'ci'].map((build) => join(process.env.CLATTER_BUILD || '', build, 'clatter'))
-      .find(existsSync);
   if (!program || !has_ffmpeg) return ' (skipped: needs a build of the program, and ffmpeg)';
   await browser.resize(960, 720);
   try {
@@ -463,12 +527,12 @@ const keep_downloads = () => browser.value(`void (globalThis.saved = [],
     globalThis.blob = null, URL.createObjectURL = (made) => { blob = made; return '#'; },
     HTMLAnchorElement.prototype.click = function () { saved.push([this.download, blob]); })`);
 
-async function saved_file() {
-  const name = await browser.until('saved[0]?.[0]');
+async function saved_file(number = 0) {
+  const name = await browser.until(`saved[${number}]?.[0]`);
   const text = await browser.value(`new Promise((done) => {
     const reader = new FileReader();
     reader.onload = () => done(reader.result);
-    reader.readAsDataURL(saved[0][1]);
+    reader.readAsDataURL(saved[${number}][1]);
   })`);
   return [name, Buffer.from(text.split(',')[1], 'base64')];
 }
@@ -506,17 +570,18 @@ test('a film shows the gas', async () => {
   assert.ok(value('YMAX') - value('YMIN') > 100, 'the frame has no contrast');
 });
 
-// Drops a file on the page.
-const drop = (name, bytes) => browser.value(`(() => {
-  const bytes = Uint8Array.from(atob('${Buffer.from(bytes).toString('base64')}'), (c) => c.charCodeAt(0));
+// Drops files on the page, each [name, bytes].
+const drop = (...files) => browser.value(`(() => {
   const data = new DataTransfer();
-  data.items.add(new File([bytes], '${name}'));
+  for (const [name, text] of ${JSON.stringify(files.map(([name, bytes]) => [name, Buffer.from(bytes).toString('base64')]))}) {
+    data.items.add(new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], name));
+  }
   dispatchEvent(new DragEvent('drop', {dataTransfer: data, cancelable: true}));
 })()`);
 
 test('a dropped scene opens, and so does a dropped picture', async () => {
   await open('cradle');
-  await drop('own.toml', 'title = "Own"\nbox.size = [12.0, 9.0]\nparticles.count = 17\n');
+  await drop(['own.toml', 'title = "Own"\nbox.size = [12.0, 9.0]\nparticles.count = 17\n']);
   await browser.until(`JSON.parse(log.filter((line) => line.includes('"event":"status"')).pop()).particles === 17`);
   assert.equal((await last('open')).title, 'Own');
   await keep_downloads();
@@ -525,12 +590,70 @@ test('a dropped scene opens, and so does a dropped picture', async () => {
   const [name, picture] = await saved_file();
   assert.match(name, /\.png$/);
   await open('cradle');
-  await drop(name, picture);
+  await drop([name, picture]);
   await browser.until(`JSON.parse(log.filter((line) => line.includes('"event":"status"')).pop()).particles === 17`);
   assert.equal((await last('open')).title, 'Own');
-  await drop('wrong.toml', 'box.size = "wide"');
+  await drop(['wrong.toml', 'box.size = "wide"']);
   await browser.until(`log.some((line) => line.includes('"event":"message"'))`);
   assert.match((await last('message')).text, /box.size/);
+});
+
+test('a saved scene with a start state is two files, which the page and the program open again', async () => {
+  await open('vibrated', '&until=1');
+  await halted_where('e.time === 1');
+  await keep_downloads();
+  await drag('box.size.x', 0.6);  // the gas adapts and is the start of another scene
+  const start = await halted_where(`e.time === 0`);
+  await browser.send('Input.dispatchKeyEvent', {type: 'keyDown', code: 'KeyS', key: 's', modifiers: 2});
+  const files = [await saved_file(0), await saved_file(1)];
+  assert.deepEqual(files.map(([name]) => name), ['clatter-1.csv', 'clatter-1.toml']);
+  await open('cradle', '&until=0');
+  await drop(...files);
+  await browser.until(`JSON.parse(log.filter((line) => line.includes('"event":"status"')).pop()).particles > 10`);
+  await press('Space', ' ');
+  await press('Home', 'Home');
+  assert.equal((await halted_where('e.particles > 10 && e.time === 0')).hash, start.hash);
+  await press('Period', ':', true);
+  const stepped = await halted_where('e.particles > 10 && e.collisions === 1');
+  if (!program) return ' (partly skipped: needs a build of the program)';
+  for (const [name, bytes] of files) writeFileSync(scratch(name), bytes);
+  const {stdout} = execute(program, 'measure', scratch('clatter-1.toml'), '--seed', '1', '--until',
+                           `${stepped.time}`, '--set', 'measure.burn_in=0.0');
+  assert.equal(JSON.parse(stdout).state_hash, stepped.hash);
+});
+
+test('a dropped file that is too large gives a message', async () => {
+  await open('cradle');
+  await drop(['large.csv', Buffer.alloc(20e6 + 1)]);
+  await browser.until(`log.some((line) => line.includes('"event":"message"'))`);
+  assert.match((await last('message')).text, /large.csv is larger than 20 MB/);
+});
+
+// ---- browsers ----
+
+test('the button and F11 enter and leave full screen', async () => {
+  await open('vibrated', '&until=0');
+  await scroll_to('full_screen');
+  await click('full_screen');
+  await browser.until(`document.fullscreenElement === document.documentElement`);
+  await press('F11', 'F11');
+  await browser.until(`document.fullscreenElement === null`);
+});
+
+// A browser whose pages run a script first shows a message in place of a gas.
+async function refused_with(script, message) {
+  const {identifier} = await browser.send('Page.addScriptToEvaluateOnNewDocument', {source: script});
+  try {
+    await browser.open(`${server.address}#vibrated`, `document.getElementById('note').textContent.match(${message})`);
+    assert.equal(await browser.value('ready'), false);
+  } finally {
+    await browser.send('Page.removeScriptToEvaluateOnNewDocument', {identifier});
+  }
+}
+
+test('a browser without vectors of WebAssembly, or without WebGL 2, gives a message', async () => {
+  await refused_with('WebAssembly.validate = () => false', /no vectors of WebAssembly/);
+  await refused_with('HTMLCanvasElement.prototype.getContext = () => null', /no WebGL 2/);
 });
 
 // ---- time ----
@@ -628,14 +751,7 @@ test('the gallery opens, and its pictures are made in slices', async () => {
 
 test('10 000 disks need less than 33 ms per picture without the work of OpenGL', async () => {
   await open('vibrated&particles.count=10000&box.size=[120.0,150.0]');
-  await browser.value(`(() => {
-    const calls = WebGL2RenderingContext.prototype;
-    for (const name of ['drawArrays', 'drawElements', 'drawArraysInstanced', 'drawElementsInstanced',
-                        'bufferData', 'bufferSubData', 'texImage2D', 'texSubImage2D', 'blitFramebuffer',
-                        'clear', 'clearBufferfv', 'finish', 'flush']) {
-      calls[name] = () => {};
-    }
-  })()`);
+  await browser.without_drawing();
   const milliseconds = await least(3, () => browser.value(`(() => {
     const pictures = 30;
     const began = performance.now();

@@ -1,0 +1,131 @@
+#include "render/layers/auto_ranges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "render/contrast_maps.h"
+#include "render/label.h"
+#include "render/layers/disk_colours.h"
+#include "render/layers/field_layer.h"
+#include "render/theme.h"
+
+namespace clatter {
+
+namespace {
+
+ColourMap map_of(Sign sign, const View& view, Colour ground) {
+  return sign == Sign::Either ? signed_particle_map(ground) : particle_map(view.palette, ground);
+}
+
+ColourMap map_of(Field field, const View& view, Colour ground) {
+  return sign_of(field) == Sign::Either ? signed_field_map(ground)
+                                        : field_map(view.field_palette, ground);
+}
+
+// The first colour is the smallest magnitude. For Sign::Either it is the smallest value.
+ColourScale scale_from(double low, double high, Sign sign, ColourMap map) {
+  switch (sign) {
+    case Sign::Positive:
+      return {map, low, high};
+    case Sign::Negative:
+      return {map, high, low};
+    case Sign::Either:
+      return {.map = map, .low = low, .high = high, .about_zero = true};
+  }
+  return {map};
+}
+
+ColourScale scale_to(double extent, Sign sign, ColourMap map) {
+  return scale_from(sign == Sign::Positive ? 0.0 : -extent, sign == Sign::Negative ? 0.0 : extent,
+                    sign, map);
+}
+
+double disk_extent(const Snapshot& snapshot, ColourBy colour_by) {
+  if (colour_by == ColourBy::Depth) return 0.5 * snapshot.box.norm();
+  std::vector<double> values(snapshot.count());
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = disk_value(snapshot, colour_by, i);
+  return robust_extent(std::move(values));
+}
+
+// The extent of the values that a heatmap shows.
+double field_extent(const Snapshot& snapshot, const View& view) {
+  const FieldMap& map = *snapshot.field;
+  if (!has_values(map)) return 0.0;
+  const bool smooth = style_of(map.field, view) == FieldStyle::Smooth && map.cells.size() == 2;
+  return robust_extent(smooth ? smoothed(plane_of(snapshot)).values : map.values);
+}
+
+double arrow_extent(const ArrowMap& map) {
+  std::vector<double> sizes;
+  for (const ArrowMap::Arrow& arrow : map.arrows) sizes.push_back(arrow.value.norm());
+  return robust_extent(std::move(sizes));
+}
+
+bool shows_field(const Snapshot& snapshot, const View& view) {
+  return view.field && snapshot.field;
+}
+
+}  // namespace
+
+RangeEnds range_ends(const Snapshot& snapshot, const View& view) {
+  const auto end = [](double extent) { return extent > 0.0 ? round_up(extent) : 0.0; };
+  RangeEnds ends;
+  if (view.colour_by != ColourBy::None) ends.disks = end(disk_extent(snapshot, view.colour_by));
+  if (shows_field(snapshot, view)) ends.field = end(field_extent(snapshot, view));
+  if (view.arrows && snapshot.arrows) ends.arrows = end(arrow_extent(*snapshot.arrows));
+  return ends;
+}
+
+Legend AutoRanges::Followed::legend(const Label& shown, const ColourRange& range, ColourMap map,
+                                    const std::function<double()>& extent, bool lockable) {
+  if (range.kind == ColourRange::Given) {
+    return {shown, scale_from(range.ends[0], range.ends[1], shown.sign, map), "given"};
+  }
+  const bool locked = range.kind == ColourRange::Locked;
+  const double last = end(shown, extent, locked && lockable);
+  const bool held = fixed > 0.0 ? locked : followed.held();
+  return {shown, scale_to(last, shown.sign, map), held ? "locked" : "auto"};
+}
+
+double AutoRanges::Followed::end(const Label& shown, const std::function<double()>& extent,
+                                 bool hold) {
+  if (fixed > 0.0) return fixed;
+  if (!(label == shown)) *this = {shown, {}};
+  return followed.follow(extent(), hold);
+}
+
+void AutoRanges::fix(const RangeEnds& ends) {
+  const auto fixed = [](double end) { return end > 0.0 ? end : 1.0; };
+  disks_.fixed = fixed(ends.disks);
+  field_.fixed = fixed(ends.field);
+  arrows_.fixed = fixed(ends.arrows);
+}
+
+Legends AutoRanges::legends(const Snapshot& snapshot, const View& view) {
+  const auto dimension = static_cast<int>(snapshot.box.size());
+  const Colour ground = theme_of(view).background;
+  Legends legends;
+  if (view.colour_by != ColourBy::None) {
+    const Label label = label_of(view.colour_by, dimension);
+    legends.disks = disks_.legend(
+        label, view.range, map_of(label.sign, view, ground),
+        [&] { return disk_extent(snapshot, view.colour_by); }, true);
+  }
+  if (shows_field(snapshot, view)) {
+    const FieldMap& map = *snapshot.field;
+    legends.field = field_.legend(
+        label_of(map.field, dimension), view.field_range, map_of(map.field, view, ground),
+        [&] { return field_extent(snapshot, view); }, map.whole_window);
+  }
+  if (view.arrows && snapshot.arrows) {
+    const Label label = label_of(snapshot.arrows->quantity, dimension);
+    const double longest = snapshot.arrows->cell.minCoeff();
+    legends.arrows = {label,
+                      longest / arrows_.end(label, [&] { return arrow_extent(*snapshot.arrows); })};
+  }
+  return legends;
+}
+
+}  // namespace clatter

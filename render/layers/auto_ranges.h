@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+
+#include "engine/publish/snapshot.h"
+#include "render/colour_range.h"
+#include "render/layers/legend.h"
+
+namespace clatter {
+
+/// The ends of automatic colour ranges; 0: no data for the range.
+struct RangeEnds {
+  double disks = 0.0;
+  double field = 0.0;
+  double arrows = 0.0;
+};
+
+/// The round ends for a single snapshot.
+RangeEnds range_ends(const Snapshot& snapshot, const View& view);
+
+/// Passes over all members, in order, for checkpoints.
+template <class Archive>
+void visit(Archive& io, RangeEnds& range) {
+  auto& [disks, field, arrows] = range;
+  io(disks, field, arrows);
+}
+
+/// The legends of a sequence of snapshots. Automatic ranges follow the sequence unless they are
+/// fixed, so each film needs its own ranges.
+class AutoRanges {
+ public:
+  /// Fixes the ends of the automatic ranges.
+  void fix(const RangeEnds& ends);
+
+  /// The legends of the next picture. Automatic ranges follow the snapshot.
+  Legends legends(const Snapshot& snapshot, const View& view);
+
+ private:
+  /// Automatic colour range of one quantity.
+  struct Followed {
+    Label label;
+    SteadyExtent followed;
+    double fixed = 0.0;  ///< fixed end; 0: the end follows the snapshots
+
+    /// End of the range. Another label restarts it. `extent` returns the robust extent of the data,
+    /// and is called only if needed.
+    double end(const Label& shown, const std::function<double()>& extent, bool hold = false);
+
+    /// Legend for `range`. A locked range is held only if `lockable`.
+    Legend legend(const Label& shown, const ColourRange& range, ColourMap map,
+                  const std::function<double()>& extent, bool lockable);
+  };
+
+  Followed disks_;
+  Followed field_;
+  Followed arrows_;
+};
+
+}  // namespace clatter

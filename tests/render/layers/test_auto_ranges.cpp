@@ -1,0 +1,139 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "render/contrast_maps.h"
+#include "render/layers/auto_ranges.h"
+#include "render/layers/renderer.h"
+#include "tests/render/picture.h"
+
+namespace clatter {
+
+namespace {
+
+// The central colour of a box with a field of one cell with this `value`.
+Colour field_colour(Renderer& renderer, const Gl& gl, const View& view, double value,
+                    bool whole_window, AutoRanges& ranges) {
+  Snapshot snapshot;
+  snapshot.box = Vec2(10.0, 10.0);
+  snapshot.field = FieldMap{*view.field, {1, 1}, {value}, whole_window};
+  constexpr Size kSize{100, 100};
+  const Canvas canvas(gl, kSize);
+  canvas.bind();
+  renderer.draw(snapshot, {{5.0, 5.0}, 10.0}, kSize, view, {}, ranges.legends(snapshot, view));
+  return pixel(canvas.read(), 50, 50);
+}
+
+View view_of(Field field) {
+  View view;
+  view.colour_by = ColourBy::None;
+  view.field = field;
+  view.overlay = false;
+  return view;
+}
+
+}  // namespace
+
+TEST_CASE("Automatic ranges: the colours of a heatmap follow, or are locked, or are given") {
+  const auto context = open_context(Backend::Osmesa);
+  const ColourMap map = field_map(FieldPalette::Blue, kDarkTheme.background);
+  View view = view_of(Quantity::Temperature);
+  const auto colours = [&] {
+    Renderer renderer(context->gl());
+    AutoRanges ranges;
+    std::vector<Colour> seen;
+    seen.push_back(field_colour(renderer, context->gl(), view, 0.1, false, ranges));
+    seen.push_back(field_colour(renderer, context->gl(), view, 1.0, true, ranges));
+    seen.push_back(field_colour(renderer, context->gl(), view, 100.0, true, ranges));
+    seen.push_back(field_colour(renderer, context->gl(), view, 0.5, true, ranges));
+    return seen;
+  };
+  const Colour top = map.back(), middle = map[8];
+  CHECK(colours() == std::vector{top, top, top, top});
+  view.field_range = {ColourRange::Locked};
+  CHECK(colours() == std::vector{top, top, top, middle});  // at 1, the first complete window
+  view.field_range = {ColourRange::Given, {-1.0, 2.0}};
+  CHECK(colours()[3] == middle);
+}
+
+TEST_CASE(
+    "Automatic ranges: a heatmap without any value, as before the first average, is not drawn") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  const View view = view_of(Quantity::Density);
+  Snapshot snapshot;
+  snapshot.box = Vec2(10.0, 10.0);
+  const auto drawn = [&](double first, double second) {
+    snapshot.field = FieldMap{Quantity::Density, {2, 1}, {first, second}};
+    return draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 10.0}, {100, 100}, view);
+  };
+  const Image none = drawn(std::nan(""), std::nan(""));
+  for (int x = 5; x < 95; ++x) REQUIRE(pixel(none, x, 50) == kDarkTheme.background);
+  CHECK(difference(none, drawn(1.0, std::nan(""))) > 20);
+}
+
+TEST_CASE("Automatic ranges: fixed ones stop following, but given ones still hold") {
+  const auto context = open_context(Backend::Osmesa);
+  View view = view_of(Quantity::Temperature);
+  Snapshot snapshot;
+  snapshot.box = Vec2(10.0, 10.0);
+  snapshot.field = FieldMap{*view.field, {1, 1}, {0.97}, true};
+  const RangeEnds ends = range_ends(snapshot, view);
+  CHECK(ends.field == 1.0);
+  CHECK(ends.disks == 0.0);
+  CHECK(ends.arrows == 0.0);
+  Renderer renderer(context->gl());
+  AutoRanges ranges;
+  ranges.fix(ends);
+  const ColourMap map = field_map(FieldPalette::Blue, kDarkTheme.background);
+  const Colour top = map.back(), middle = map[8];
+  CHECK(field_colour(renderer, context->gl(), view, 100.0, true, ranges) == top);
+  CHECK(field_colour(renderer, context->gl(), view, 0.5, true, ranges) == middle);
+  view.field_range = {ColourRange::Locked};
+  CHECK(field_colour(renderer, context->gl(), view, 0.5, true, ranges) == middle);
+  view.field_range = {ColourRange::Given, {0.0, 0.5}};
+  CHECK(field_colour(renderer, context->gl(), view, 0.5, true, ranges) == top);
+  // Each range has its own end. Without an end it is 1.
+  view.field_range = {};
+  ranges.fix({.disks = 8.0, .field = 2.0, .arrows = 8.0});
+  CHECK(field_colour(renderer, context->gl(), view, 1.0, true, ranges) == middle);
+  ranges.fix({});
+  CHECK(field_colour(renderer, context->gl(), view, 0.5, true, ranges) == middle);
+}
+
+TEST_CASE("Automatic ranges: another field locks one of its own") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  AutoRanges ranges;
+  View view = view_of(Quantity::Temperature);
+  view.field_range = {ColourRange::Locked};
+  field_colour(renderer, context->gl(), view, 100.0, true, ranges);
+  view.field = Quantity::Density;
+  CHECK(field_colour(renderer, context->gl(), view, 1.0, true, ranges) ==
+        field_map(FieldPalette::Blue, kDarkTheme.background).back());
+}
+
+TEST_CASE(
+    "Automatic ranges: magnitudes have the palette, its end far from zero; signed fields have two "
+    "ends") {
+  const auto context = open_context(Backend::Osmesa);
+  const auto colour = [&](Field field, double value) {
+    Renderer renderer(context->gl());
+    AutoRanges ranges;
+    View view = view_of(field);
+    view.field_palette = FieldPalette::Inferno;
+    return field_colour(renderer, context->gl(), view, value, true, ranges);
+  };
+  const Colour end = field_map(FieldPalette::Inferno, kDarkTheme.background).back();
+  CHECK(colour(Quantity::Density, 1.0) == end);
+  CHECK(colour(Field(Quantity::Stress, 0, 0), -1.0) == end);
+  CHECK(colour(Quantity::Dissipation, -1.0) == end);
+  const ColourMap signs = signed_field_map(kDarkTheme.background);
+  for (const Field field : {Field(Quantity::Velocity, 0), Field(Quantity::Stress, 0, 1),
+                            Field(Quantity::HeatFlux, 1), Field(Quantity::Spin)}) {
+    CHECK(colour(field, 1.0) == signs.back());
+    CHECK(colour(field, -1.0) == signs.front());
+  }
+}
+
+}  // namespace clatter
