@@ -1,7 +1,9 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <set>
+#include <vector>
 
 #include "app/view/thumbnails.h"
 #include "render/context/context.h"
@@ -12,8 +14,9 @@ namespace clatter {
 
 namespace {
 
-// The colours of the thumbnail of a scene, red + 256 green + 65536 blue.
-std::set<unsigned> colours_of(const Gl& gl, Thumbnails& thumbnails, const EmbeddedFile& scene) {
+// The colours of the pixels of the thumbnail of a scene, lowest row first: red + 256 green + 65536
+// blue.
+std::vector<unsigned> pixels_of(const Gl& gl, Thumbnails& thumbnails, const EmbeddedFile& scene) {
   GLuint texture = 0;
   for (int look = 0; look < 10'000 && texture == 0; ++look) {
     texture = thumbnails.of(scene);
@@ -24,14 +27,24 @@ std::set<unsigned> colours_of(const Gl& gl, Thumbnails& thumbnails, const Embedd
   const Framebuffer framebuffer = generate<Framebuffer>(gl, gl.GenFramebuffers);
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
-  std::vector<unsigned char> pixels(static_cast<std::size_t>(4 * width * height));
-  gl.ReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+  std::vector<unsigned char> bytes(static_cast<std::size_t>(4 * width * height));
+  gl.ReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, bytes.data());
   gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
-  std::set<unsigned> colours;
-  for (std::size_t i = 0; i < pixels.size(); i += 4) {
-    colours.insert(pixels[i] + 256u * pixels[i + 1] + 65536u * pixels[i + 2]);
+  std::vector<unsigned> pixels;
+  for (std::size_t i = 0; i < bytes.size(); i += 4) {
+    pixels.push_back(bytes[i] + 256u * bytes[i + 1] + 65536u * bytes[i + 2]);
   }
-  return colours;
+  return pixels;
+}
+
+std::set<unsigned> colours_of(const Gl& gl, Thumbnails& thumbnails, const EmbeddedFile& scene) {
+  const auto pixels = pixels_of(gl, thumbnails, scene);
+  return {pixels.begin(), pixels.end()};
+}
+
+unsigned ground() {
+  const Colour colour = theme_of(View{}).background;
+  return colour.red + 256u * colour.green + 65536u * colour.blue;
 }
 
 }  // namespace
@@ -39,7 +52,8 @@ std::set<unsigned> colours_of(const Gl& gl, Thumbnails& thumbnails, const Embedd
 // Shaded spheres have far more colours than flat disks of one colour.
 TEST_CASE("Thumbnails: disks are flat, and spheres have light and shade") {
   const auto context = open_context(Backend::Auto);
-  Thumbnails thumbnails(context->gl());
+  Renderer renderer(context->gl());
+  Thumbnails thumbnails(context->gl(), renderer);
   const EmbeddedFile spheres{"spheres.toml", R"(
 box.size = [8.0, 8.0, 8.0]
 particles.count = 50
@@ -53,9 +67,39 @@ view.colour_by = "none"
   const auto flat = colours_of(context->gl(), thumbnails, disks);
   const auto shaded = colours_of(context->gl(), thumbnails, spheres);
   CHECK(flat.size() > 2);
-  const Colour ground = theme_of(View{}).background;
-  CHECK(flat.contains(ground.red + 256u * ground.green + 65536u * ground.blue));
+  CHECK(flat.contains(ground()));
   CHECK(shaded.size() > 2 * flat.size());
+}
+
+// Thermal walls have a hue, and static walls are grey.
+TEST_CASE("Thumbnails: the lowest row is first, and the leftmost pixel of a row") {
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  Thumbnails thumbnails(context->gl(), renderer);
+  const EmbeddedFile scene{"walls.toml", R"(
+box.size = [8.0, 6.0]
+particles.count = 5
+walls.left = {kind = "thermal", temperature = 1.0}
+walls.right = {kind = "static"}
+walls.bottom = {kind = "thermal", temperature = 1.0}
+walls.top = {kind = "static"}
+)"};
+  const auto pixels = pixels_of(context->gl(), thumbnails, scene);
+  const auto [width, height] = Thumbnails::kSize;
+  // Whether some of the first eight pixels from (x, y) on by (right, up) has a hue.
+  const auto has_hue = [&](int x, int y, int right, int up) {
+    bool hue = false;
+    for (int k = 0; k < 8; ++k, x += right, y += up) {
+      const unsigned pixel = pixels[static_cast<std::size_t>(y * width + x)];
+      const auto [least, most] = std::minmax({pixel & 255u, pixel >> 8 & 255u, pixel >> 16});
+      hue |= most - least > 100;
+    }
+    return hue;
+  };
+  CHECK(has_hue(0, height / 2, 1, 0));
+  CHECK_FALSE(has_hue(width - 1, height / 2, -1, 0));
+  CHECK(has_hue(width / 2, 0, 0, 1));
+  CHECK_FALSE(has_hue(width / 2, height - 1, 0, -1));
 }
 
 }  // namespace clatter

@@ -678,11 +678,6 @@ test('a hidden page does not run', async () => {
 
 // ---- speed ----
 
-// Durations of the tasks of more than 50 ms from now on, in milliseconds.
-const watch_tasks = () => browser.value(`void (globalThis.tasks = [], new PerformanceObserver((list) => {
-  for (const entry of list.getEntries()) tasks.push(entry.duration);
-}).observe({entryTypes: ['longtask']}))`);
-
 // The least of several values, because other programs may use the machine.
 async function least(count, measure) {
   const values = [];
@@ -701,9 +696,19 @@ test('the first gas moves soon after the files have arrived', async () => {
   assert.ok(milliseconds < 2000);
 });
 
+// Runs a function, without the work of OpenGL. No task may take much processor time. The goal is
+// 100 ms, and the processor of a test may be slow.
+async function need_short_tasks(run) {
+  const most = 200;
+  await browser.without_drawing();
+  const tasks = await browser.tasks(run);
+  const longest = Math.max(...tasks.map((task) => task.processor));
+  console.log(`  longest task ${Math.round(longest)} ms of the processor`);
+  assert.ok(longest < most);
+}
+
 test('a large scene opens in slices, and can be cancelled', async () => {
   await open('cradle');
-  await watch_tasks();
   const dense = 'vibrated&particles.count=100000&box.size=[340.0,400.0]';
   const go = (fragment) => browser.value(`void (location.hash = '${fragment}')`);
   await go(dense);
@@ -715,26 +720,26 @@ test('a large scene opens in slices, and can be cancelled', async () => {
   const {time} = await last('status');
   await browser.until(`JSON.parse(log.filter((line) => line.includes('"event":"status"')).pop()).time > ${time}`);
   assert.equal((await last('status')).run, 1);
-  await browser.value('void (tasks.length = 0)');
-  const began = Date.now();
-  await go(dense + '&seed=2');
-  await browser.until(`JSON.parse(log.filter((line) => line.includes('"event":"status"')).pop()).particles === 100000`, 120);
-  const whole = Date.now() - began;
-  const longest = await browser.value('Math.max(0, ...tasks)');
-  console.log(`  longest task ${Math.round(longest)} ms of ${whole} ms`);
-  assert.ok(longest < 0.25 * whole);
+  await need_short_tasks(async () => {
+    await go(dense + '&seed=2');
+    await browser.until(`log.map((line) => JSON.parse(line)).some((event) =>
+        event.event === 'status' && event.particles === 100000 && event.time > 0)`, 120);
+  });
 });
 
-test('the gallery opens, and its pictures are made in slices', async () => {
+test('the gallery makes its pictures in slices', async () => {
   await open('cradle', '&until=0');
-  await watch_tasks();
+  await need_short_tasks(async () => {
+    await click('gallery');
+    await sleep(8000);
+  });
+});
+
+test('the gallery opens, and its pictures appear', async () => {
+  await open('cradle', '&until=0');
   await click('gallery');
   await browser.until('log.some((line) => line.includes(\'"gallery.vibrated"\'))');
-  const whole = 8000;
-  await sleep(whole);
-  const longest = await browser.value('Math.max(0, ...tasks)');
-  console.log(`  longest task ${Math.round(longest)} ms of ${whole} ms`);
-  assert.ok(longest < 0.25 * whole);
+  await sleep(8000);
   // Pictures of scenes have more colours than the list without them.
   const [x, y, , height] = await place_of('gallery.vibrated');
   const colours = await browser.value(`(() => {
