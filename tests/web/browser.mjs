@@ -139,7 +139,8 @@ export class Browser {
   }
 
   /// Runs a function. Resolves to the tasks of the page's thread meanwhile, each with its duration
-  /// and its processor time, {wall, processor}, in milliseconds.
+  /// and its processor time, {wall, processor}, in milliseconds. Where the browser does not know the
+  /// processor time, it is the duration.
   async tasks(run) {
     this.events.length = 0;
     await this.send('Tracing.start', {transferMode: 'ReportEvents', categories: 'toplevel'});
@@ -152,7 +153,7 @@ export class Browser {
     const pages = events.filter((event) => event.args?.name === 'CrRendererMain').map(thread);
     return events
         .filter((event) => event.name.endsWith('RunTask') && event.dur && pages.includes(thread(event)))
-        .map((event) => ({wall: event.dur / 1000, processor: event.tdur / 1000}));
+        .map((event) => ({wall: event.dur / 1000, processor: (event.tdur ?? event.dur) / 1000}));
   }
 
   /// Leaves out the calls of WebGL that draw or copy pixels, until the page is left.
