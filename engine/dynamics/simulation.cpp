@@ -277,6 +277,7 @@ bool Simulation<D>::run_until(double time, std::uint64_t collisions, std::uint64
                               const StopRequest& stop_request) {
   using Halt = typename EventLoop<D>::Halt;
   constexpr std::uint64_t kStepsPerLook = 1000;  // at the request
+  if (!prepare(stop_request)) return false;
   while (!stop_request.made()) {
     const double end = clock_.relative(time);
     Timer* timer = due_timer(end);

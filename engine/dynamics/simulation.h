@@ -33,14 +33,17 @@ class Simulation {
   /// A wall whose frequency differs continues at its place, and one that begins to move has its
   /// phase now. Throws PhysicalStop if a wall now overlaps a particle. Throws Interrupted.
   Simulation(const Model<D>& model, RunState<D> saved, const StopRequest& stop = {});
-  /// Starts as above, but prepare() must complete before the run and before deepest_overlap().
+  /// Starts as above, but prepare() must complete before deepest_overlap(). run_until() completes
+  /// it.
   struct InParts {};
   Simulation(InParts, const Model<D>& model, State<D> state, double start_time = 0.0);
+  /// Continues as above, in the same way.
+  Simulation(InParts, const Model<D>& model, RunState<D> saved);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// Prepares the particles of a start in parts for the run. Returns false at a request to pause,
-  /// and true once all is done. Throws PhysicalStop as the constructors do.
+  /// Prepares the particles in parts for the run. Returns false at a request to pause, and true
+  /// once all is done. Throws PhysicalStop as the constructors do.
   bool prepare(const StopRequest& pause);
   /// Uses up to so many threads from now on, if runs_in_tiles(). The run has the same bits with any
   /// number of threads.
@@ -123,7 +126,6 @@ class Simulation {
     typename EventLoop<D>::Preparation loop;
   };
 
-  Simulation(InParts, const Model<D>& model, RunState<D> saved);
   Timer* due_timer(double stop);
   void fire(Timer& timer);
   double next_kick() const;

@@ -20,21 +20,23 @@ void CollisionWatch<D>::on_wall(const WallCollision<D>& collision) {
 
 template <int D>
 CollisionLookahead<D>::CollisionLookahead(const Simulation<D>& simulation, std::uint32_t particle)
-    : ahead_(simulation.model(), simulation.save()), particle_(particle), watch_(ahead_, particle) {
+    : ahead_(typename Simulation<D>::InParts(), simulation.model(), simulation.save()),
+      particle_(particle),
+      watch_(ahead_, particle) {
   ahead_.add_observer(watch_);
 }
 
 template <int D>
 const std::optional<ParticleCollision>& CollisionLookahead<D>::next_after(
-    double time, std::uint64_t most_steps) {
+    double time, std::uint64_t most_steps, const StopRequest& pause) {
   const EventCounts& counts = ahead_.counts();
   const std::uint64_t last_step = counts.steps() + most_steps;
   const auto passed = [&] { return watch_.last() && watch_.last()->time <= time; };
   if (passed()) watch_.watch(particle_);
   try {
-    while (!ended_ && !watch_.last() && counts.steps() < last_step) {
+    while (searches() && counts.steps() < last_step && !pause.made()) {
       // run_until(kNever) returns true only if no event is left.
-      ended_ = ahead_.run_until(kNever, counts.collisions() + 1, last_step);
+      ended_ = ahead_.run_until(kNever, counts.collisions() + 1, last_step, pause);
       if (passed()) watch_.watch(particle_);
     }
   } catch (const PhysicalStop&) {

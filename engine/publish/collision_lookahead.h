@@ -56,8 +56,14 @@ class CollisionLookahead {
     return simulation.counts().nudges == ahead_.counts().nudges;
   }
   /// The particle's first collision after `time`; times of successive calls must not decrease.
-  /// Absent if the next `most_steps` steps do not reach it, or if there is none.
-  const std::optional<ParticleCollision>& next_after(double time, std::uint64_t most_steps);
+  /// Absent if the next `most_steps` steps do not reach it, at a request to pause, or if there is
+  /// none.
+  const std::optional<ParticleCollision>& next_after(double time, std::uint64_t most_steps,
+                                                     const StopRequest& pause);
+  /// Whether further steps may find the collision.
+  bool searches() const { return !ended_ && !watch_.last(); }
+  /// Steps of the copy, and of the run before it.
+  std::uint64_t steps() const { return ahead_.counts().steps(); }
 
  private:
   Simulation<D> ahead_;

@@ -35,12 +35,13 @@ void Rewinder::begin_stretch() {
   there_ = false;
 }
 
-void Rewinder::work() {
+void Rewinder::work(const StopRequest& pause) {
   constexpr std::uint64_t kSteps = 4096;
   if (!busy()) return;
   const double time = time_of(first_ + count_ - 1 - making_.size());
   if (!std::exchange(there_, true)) run_.go_back(time);
-  if (run_.time() < time && !run_.run_until(time, kNoLimit, run_.counts().steps() + kSteps)) return;
+  const std::uint64_t steps = run_.counts().steps() + kSteps;
+  if (run_.time() < time && !run_.run_until(time, kNoLimit, steps, pause)) return;
   run_.tell(making_.emplace_back(), false);
 }
 

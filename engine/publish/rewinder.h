@@ -20,8 +20,9 @@ class Rewinder {
 
   /// Whether there is more to make before frames are taken.
   bool busy() const { return count_ > 0 && making_.size() < count_; }
-  /// Works for some milliseconds, or until a frame is made. Throws PhysicalStop.
-  void work();
+  /// Works for some milliseconds, until a frame is made, or until a request to pause. Throws
+  /// PhysicalStop.
+  void work(const StopRequest& pause);
   /// Whether the frame nearest to a simulation time is earlier than the last one taken.
   bool due(double time) const { return number_at(time) >= static_cast<double>(next_); }
   /// The frame nearest to a simulation time, or the earliest one that is made. Absent: work() must

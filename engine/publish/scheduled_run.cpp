@@ -197,7 +197,8 @@ template <int D>
 void ScheduledRun<D>::return_to(const Scene& scene, double changed_until, const RunState<D>& state,
                                 const std::vector<Rotation<D>>& rotations) {
   Schedule schedule(scene, changed_until);
-  auto next = std::make_unique<Simulation<D>>(model_of<D>(schedule.laws(), seed_), state);
+  auto next = std::make_unique<Simulation<D>>(typename Simulation<D>::InParts(),
+                                              model_of<D>(schedule.laws(), seed_), state);
   if (on_change) on_change(*next);
   if (shown_) {
     shown_ = std::make_unique<ViewObservers<D>>(*next, view_, exposure_);

@@ -1,6 +1,7 @@
 #include "engine/publish/watched_run.h"
 
 #include <algorithm>
+#include <chrono>
 #include <functional>
 #include <limits>
 #include <utility>
@@ -34,7 +35,8 @@ class RunOf : public WatchedRun {
   const EventCounts& counts() const override { return run_.simulation().counts(); }
   AnyState state() const override { return run_.simulation().state(); }
   bool prepare(const StopRequest& pause) override { return run_.prepare(pause); }
-  bool run_until(double time, std::uint64_t collisions, std::uint64_t steps) override;
+  bool run_until(double time, std::uint64_t collisions, std::uint64_t steps,
+                 const StopRequest& pause) override;
   void settle() override;
   void change(const std::vector<Override>& laws, double delay) override {
     branch([&] { run_.change(laws, delay); });
@@ -44,12 +46,14 @@ class RunOf : public WatchedRun {
   double head() const override { return std::max(head_, time()); }
   double move_change(std::size_t number, double time) override;
   double exchange_futures() override;
-  std::optional<double> previous_collision() override;
+  bool search_back(const StopRequest& pause) override;
+  std::optional<double> previous_collision() const override;
   void go_back(double time) override;
   void show(const View& view) override;
   void show_profile(Profiled what, Axis axis) override;
   void pick(std::optional<std::uint32_t> particle) override;
   void tell(Frame& frame, bool halted) override;
+  bool looks_ahead() const override;
   const std::optional<std::array<std::uint32_t, 2>>& partners() const override {
     return last_.partners();
   }
@@ -91,6 +95,12 @@ class RunOf : public WatchedRun {
     std::size_t bytes() const;
   };
 
+  // A search for the last collision before a time.
+  struct Search {
+    double end;                       // no collision is after this time
+    std::optional<double> from = {};  // time of the recorded state that it started from
+  };
+
   SavedState<D> saved_state();
   void record(bool stopped = false);
   void save_head();
@@ -98,6 +108,11 @@ class RunOf : public WatchedRun {
   Future end_future(double from);
   Future fork();
   void branch(const std::function<void()>& change);
+  // Steps of the search for the next collision of the picked particle. Most particles collide
+  // within a few collisions per particle.
+  std::uint64_t longest_search() const {
+    return 100 * (run_.simulation().particles().size() + 100);
+  }
   std::optional<ParticleCollision> next_collision(bool halted);
   std::optional<ContactTimeError> contact_time_error() const;
 
@@ -124,6 +139,7 @@ class RunOf : public WatchedRun {
   bool settled_ = false;                        // all events up to the present time are processed
   double head_ = 0.0;                           // latest time reached before the present one
   std::size_t record_bytes_;
+  std::optional<Search> search_;
   std::optional<Future> other_;  // that the last change in the past replaced
   std::uint64_t futures_ = 0;    // number of changes of the future
   double forked_at_ = 0.0;       // time of the last one
@@ -262,10 +278,11 @@ void RunOf<D>::settle() {
 // A watchdog begins with each return to a state, so a replay may stop by itself shortly before the
 // run did. The run then continues from the next recorded state.
 template <int D>
-bool RunOf<D>::run_until(double time, std::uint64_t collisions, std::uint64_t steps) {
+bool RunOf<D>::run_until(double time, std::uint64_t collisions, std::uint64_t steps,
+                         const StopRequest& pause) {
   settled_ = false;
   try {
-    const bool arrived = settled_ = run_.run_until(time, collisions, steps);
+    const bool arrived = settled_ = run_.run_until(time, collisions, steps, pause);
     const std::size_t particles = run_.simulation().particles().size();
     if (record_.due(work_of(counts(), particles))) save_head();
     return arrived;
@@ -298,6 +315,7 @@ void RunOf<D>::return_to(const SavedState<D>& saved, const std::vector<Change>& 
 // An earlier state gives averages and trails the time to form, if it needs little more work.
 template <int D>
 void RunOf<D>::go_back(double time) {
+  search_.reset();
   save_head();
   const View& view = run_.laws().view;
   const double span =
@@ -349,7 +367,7 @@ template <int D>
 void RunOf<D>::nudge(const Nudge& nudge, double delay) {
   if (time() == 0.0) {
     delay *= 0.5;
-    run_until(delay, kNoLimit, kNoLimit);
+    run_until(delay, kNoLimit, kNoLimit, {});
   }
   branch([&] { run_.nudge(nudge, delay); });
 }
@@ -405,21 +423,32 @@ double RunOf<D>::exchange_futures() {
 
 // Searches from one recorded state to the next, backwards.
 template <int D>
-std::optional<double> RunOf<D>::previous_collision() {
+bool RunOf<D>::search_back(const StopRequest& pause) {
   constexpr double kRoundings = 8.0 * std::numeric_limits<double>::epsilon();
-  save_head();
-  const double now = time();
-  for (double end = now; end > 0.0;) {
-    const SavedState<D>& start = record_.before(std::nextafter(end, 0.0));
-    const double from = start.time;
-    return_to(start, run_.scene().changes);
-    last_.search_before(now * (1.0 - kRoundings));
-    while (!run_until(end, kNoLimit, kNoLimit)) {
-    }
-    if (last_.found()) return settled_time(*last_.found());
-    end = from;
+  if (!search_) {
+    save_head();
+    last_.search_before(time() * (1.0 - kRoundings));
+    search_.emplace(Search{time()});
   }
-  return std::nullopt;
+  while (search_->from || (!last_.found() && search_->end > 0.0)) {
+    if (!search_->from) {
+      const SavedState<D>& start = record_.before(std::nextafter(search_->end, 0.0));
+      search_->from = start.time;
+      return_to(start, run_.scene().changes);
+    }
+    while (!run_until(search_->end, kNoLimit, kNoLimit, pause)) {
+      if (pause.made()) return false;
+    }
+    search_ = Search{*search_->from};
+  }
+  search_.reset();
+  return true;
+}
+
+template <int D>
+std::optional<double> RunOf<D>::previous_collision() const {
+  if (!last_.found()) return std::nullopt;
+  return settled_time(*last_.found());
 }
 
 template <int D>
@@ -432,19 +461,27 @@ std::optional<ContactTimeError> RunOf<D>::contact_time_error() const {
   return ContactTimeError{undissipated / dissipated, elastic / collisions};
 }
 
-// While the run plays, the lookahead takes about as many steps as the run. While it is halted,
-// there is time for more steps: most particles collide within a few collisions per particle.
+// While the run plays, the lookahead takes about as many steps as the run. While it is halted, the
+// search continues at the next frame.
 template <int D>
 std::optional<ParticleCollision> RunOf<D>::next_collision(bool halted) {
   constexpr std::uint64_t kHeadStart = 5000;
+  constexpr std::chrono::milliseconds kSlice{10};
+  const auto due = std::chrono::steady_clock::now() + kSlice;
   const Simulation<D>& simulation = run_.simulation();
   const std::uint64_t steps = simulation.counts().steps();
   const std::uint64_t since = steps - std::exchange(steps_told_, steps);
   if (!picked_) return std::nullopt;
   if (!lookahead_ || !lookahead_->follows(simulation)) lookahead_.emplace(simulation, *picked_);
-  const std::uint64_t most =
-      halted ? 100 * (simulation.particles().size() + 100) : 2 * since + kHeadStart;
-  return lookahead_->next_after(simulation.time(), most);
+  const std::uint64_t most = halted ? longest_search() : 2 * since + kHeadStart;
+  return lookahead_->next_after(simulation.time(), most,
+                                [due] { return std::chrono::steady_clock::now() >= due; });
+}
+
+template <int D>
+bool RunOf<D>::looks_ahead() const {
+  return lookahead_ && lookahead_->searches() &&
+         lookahead_->steps() < counts().steps() + longest_search();
 }
 
 template <int D>

@@ -33,7 +33,8 @@ class WatchedRun {
   /// As Simulation::prepare.
   virtual bool prepare(const StopRequest& pause) = 0;
   /// As ScheduledRun::run_until.
-  virtual bool run_until(double time, std::uint64_t collisions, std::uint64_t steps) = 0;
+  virtual bool run_until(double time, std::uint64_t collisions, std::uint64_t steps,
+                         const StopRequest& pause = {}) = 0;
   /// As ScheduledRun::settle.
   virtual void settle() = 0;
   /// As ScheduledRun::change. In the past it begins another future: the user's changes after the
@@ -62,10 +63,12 @@ class WatchedRun {
   /// soon reaches this time. The bits are those of the run so far. Averages, profiles and
   /// observables restart, unless the run is just before this time.
   virtual void go_back(double time) = 0;
-  /// The settled_time() of the last collision of particles before the present state; absent: none.
-  /// A collision at the present time does not count. Afterwards the run is elsewhere in its past,
-  /// so that go_back() must follow.
-  virtual std::optional<double> previous_collision() = 0;
+  /// Searches the last collision of particles before the present state. A collision at the present
+  /// time does not count. Returns false at a request to pause; the next call continues. Meanwhile
+  /// and afterwards the run is elsewhere in its past, so that go_back() must follow.
+  virtual bool search_back(const StopRequest& pause) = 0;
+  /// The settled_time() of the collision that search_back() has found; absent: there is none.
+  virtual std::optional<double> previous_collision() const = 0;
   /// As ScheduledRun::show.
   virtual void show(const View& view) = 0;
 
@@ -74,8 +77,11 @@ class WatchedRun {
   /// Selects the particle whose collisions frames contain from now on. Absent, or a number that is
   /// too large: none.
   virtual void pick(std::optional<std::uint32_t> particle) = 0;
-  /// Fills in the frame's snapshot, sums and scene; with `halted` also the state hash.
+  /// Fills in the frame's snapshot, sums and scene; with `halted` also the state hash. The next
+  /// collision of the picked particle is searched for some milliseconds.
   virtual void tell(Frame& frame, bool halted) = 0;
+  /// Whether tell() may yet find the next collision of the picked particle, if it is called again.
+  virtual bool looks_ahead() const = 0;
   /// The particles that collided last, if any have.
   virtual const std::optional<std::array<std::uint32_t, 2>>& partners() const = 0;
 };

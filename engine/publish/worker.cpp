@@ -52,6 +52,10 @@ class EngineWork {
       obey_all();
       if (opening_) {
         open_on();
+      } else if (goes()) {
+        go_on();
+      } else if (looks_ahead()) {
+        publish();
       } else if (!moves()) {
         commands_.wait();
       } else if (backwards_) {
@@ -76,6 +80,8 @@ class EngineWork {
       if (opened) open_on();
       return;
     }
+    if (goes()) return go_on();
+    if (looks_ahead()) return publish();
     if (!moves()) return;
     if (backwards_) {
       begin_rewind();
@@ -89,8 +95,7 @@ class EngineWork {
     }
   }
 
-  bool moves() const { return watched_ && (plays_ || step_to_ || to_collision_); }
-  bool opens() const { return opening_.has_value(); }
+  bool busy() const { return moves() || opens() || goes() || looks_ahead(); }
 
  private:
   // A scene that is being opened.
@@ -100,23 +105,32 @@ class EngineWork {
     bool complete = false;
   };
 
+  bool moves() const { return watched_ && (plays_ || step_to_ || to_collision_); }
+  bool opens() const { return opening_.has_value(); }
+  bool goes() const { return searches_ || going_to_; }
+  // A gas at rest has time to search for the next collision of the picked particle.
+  bool looks_ahead() const { return watched_ && !moves() && watched_->looks_ahead(); }
+
+  // Commands wait while a scene is being opened, and while the run is on its way to another time.
   void obey_all() {
     std::vector<Command> asked = commands_.take();
-    const bool any = !asked.empty();
+    bool any = !asked.empty();
     std::ranges::move(asked, std::back_inserter(waiting_));
     if (opening_) abandon();
-    while (!opening_ && !waiting_.empty() && !commands_.closed()) {
+    if (any && rewinder_) attempt([this] { end_rewind(); });
+    if (goes() && !waiting_.empty() && std::holds_alternative<command::Jump>(waiting_.front())) {
+      stay();
+    }
+    while (!opening_ && !goes() && !waiting_.empty() && !commands_.closed()) {
       const Command next = std::move(waiting_.front());
       waiting_.pop_front();
+      any = true;
       if (waiting_.empty() || !supersedes(waiting_.front(), next)) {
-        attempt([&] {
-          end_rewind();
-          std::visit([this](const auto& command) { obey(command); }, next);
-        });
+        attempt([&] { std::visit([this](const auto& command) { obey(command); }, next); });
       }
       if (!opening_) ++handled_;
     }
-    if (any) publish();
+    if (any && !goes()) publish();
   }
 
   // Another scene, or CancelOpen, ends the opening and the commands between.
@@ -187,22 +201,19 @@ class EngineWork {
   }
   void obey(const command::StepBack&) {
     halt();
-    if (!watched_) return;
-    const std::optional<double> collision = watched_->previous_collision();
-    go_to(collision.value_or(0.0));
-    if (collision) partners_ = watched_->partners();
+    searches_ = watched_ != nullptr;
   }
   void obey(const command::MoveChange& asked) {
     halt();
-    if (watched_) run_to(watched_->move_change(asked.number, asked.time));
+    if (watched_) going_to_ = watched_->move_change(asked.number, asked.time);
   }
   void obey(const command::ReplaceChanges& asked) {
     halt();
-    if (watched_) run_to(watched_->replace_changes(asked.changes, asked.from));
+    if (watched_) going_to_ = watched_->replace_changes(asked.changes, asked.from);
   }
   void obey(const command::ExchangeFutures&) {
     halt();
-    if (watched_) run_to(watched_->exchange_futures());
+    if (watched_) going_to_ = watched_->exchange_futures();
   }
   void obey(const command::Loop& asked) {
     loop_.reset();
@@ -279,20 +290,44 @@ class EngineWork {
     rate_since_ = {};
   }
 
-  // Goes to a time of the run so far.
+  // Begins the way to a time of the run so far.
   void go_to(double time) {
     watched_->go_back(time);
-    run_to(time);
+    going_to_ = time;
   }
 
-  // Runs up to a time at once, unless the engine is to end.
-  void run_to(double time) {
+  // Ends the way to another time, wherever the run is.
+  void stay() {
+    searches_ = shows_partners_ = false;
+    going_to_.reset();
+  }
+
+  // A slice of the way to another time. Frames follow at its end.
+  void go_on() {
+    constexpr std::chrono::milliseconds kSlice{20};
+    const auto due = Clock::now() + kSlice;
+    const auto pauses = [&] { return Clock::now() >= due || commands_.pending(); };
     rate_since_ = {};
     stop_.clear();
-    const auto steps = [this] { return watched_->counts().steps() + kLongestSlice; };
-    while (this->time() < time && !commands_.closed() &&
-           !watched_->run_until(time, kNoLimit, steps())) {
-    }
+    const bool possible = attempt([&] {
+      if (searches_) {
+        if (!watched_->search_back(pauses)) return;
+        searches_ = false;
+        const std::optional<double> collision = watched_->previous_collision();
+        shows_partners_ = collision.has_value();
+        go_to(collision.value_or(0.0));
+      }
+      while (time() < *going_to_ && !watched_->run_until(*going_to_, kNoLimit, kNoLimit, pauses)) {
+        if (pauses()) return;
+      }
+      if (shows_partners_) partners_ = watched_->partners();
+      stay();
+    });
+    if (!possible) stay();
+    if (goes()) return;
+    pace_.restart();
+    publish();
+    obey_all();
   }
 
   void begin_rewind() {
@@ -311,20 +346,21 @@ class EngineWork {
   // Shows the frame at a time, and then makes earlier ones, until the real time `due` or the next
   // command. Returns whether it has time left. If the frame is late, the delay is dropped.
   bool rewind(double time, Clock::time_point due) {
-    const auto in_time = [&] { return Clock::now() < due && !commands_.pending(); };
+    const auto late = [&] { return Clock::now() >= due || commands_.pending(); };
+    const auto in_time = [&] { return !late(); };
     std::optional<Frame> frame;
     const bool works = attempt([&] {
       const bool asked = rewinder_->due(time);
-      while (asked && !(frame = rewinder_->take(time)) && in_time()) rewinder_->work();
+      while (asked && !(frame = rewinder_->take(time)) && in_time()) rewinder_->work(late);
       wanted_ = asked && !frame ? shown_ : time;
       if (frame) shown_ = frame->snapshot.time;
       if (frame && shown_ > 0.0) publish_rewound(std::move(*frame));
-      while (rewinder_->busy() && in_time()) rewinder_->work();
+      while (rewinder_->busy() && in_time()) rewinder_->work(late);
     });
     if (!works || shown_ == 0.0) {
       halt();
       attempt([this] { end_rewind(); });
-      publish();
+      if (!goes()) publish();
     }
     return backwards_ && in_time();
   }
@@ -381,7 +417,7 @@ class EngineWork {
       pace_.restart();
       if (!attempt([this] { go_to((*loop_)[0]); })) halt();
     }
-    publish();
+    if (!goes()) publish();
     return arrived && plays_;
   }
 
@@ -467,7 +503,7 @@ class EngineWork {
   Pace pace_;
   std::unique_ptr<WatchedRun> watched_;
   std::optional<Opening> opening_;
-  std::deque<Command> waiting_;  // commands after the scene that is being opened
+  std::deque<Command> waiting_;  // commands that were not obeyed yet
   command::ShowProfile profiled_ = {.what = Profiled::Nothing};
   bool plays_ = false;
   bool backwards_ = false;            // plays_ backwards
@@ -477,6 +513,9 @@ class EngineWork {
   double until_ = std::numeric_limits<double>::infinity();  // simulation time of the automatic halt
   std::optional<std::array<double, 2>> loop_;               // repeated simulation times
   std::optional<double> step_to_;
+  bool searches_ = false;           // on the way to the last collision
+  std::optional<double> going_to_;  // simulation time that the run is on its way to
+  bool shows_partners_ = false;     // at the end of this way, the pair that collided last
   std::optional<std::uint64_t> to_collision_;  // number of pair collisions at which to halt
   std::optional<std::array<std::uint32_t, 2>> partners_;
   std::uint64_t slice_ = 256;  // steps per slice, adapted while running
@@ -507,7 +546,7 @@ void SlicedWorker::work(std::chrono::milliseconds budget) {
 }
 
 bool SlicedWorker::busy() {
-  return commands_.pending() || work_->moves() || work_->opens();
+  return commands_.pending() || work_->busy();
 }
 
 Worker::Worker(double frames_per_second, std::function<void()> on_publish)

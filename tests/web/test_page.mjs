@@ -727,6 +727,30 @@ test('a large scene opens in slices, and can be cancelled', async () => {
   });
 });
 
+test('a large gas goes to other times, and looks ahead, in slices', async () => {
+  await open('vibrated&particles.count=100000&box.size=[340.0,400.0]&view.speed=5');
+  const status = (condition) => browser.until(
+      `log.map((line) => JSON.parse(line)).filter((e) => e.event === 'status').slice(-1).find((e) => ${condition})`, 120);
+  await status('e.collisions > 1000000');
+  await press('Space', ' ');
+  const head = await status('e.hash');
+  await need_short_tasks(async () => {
+    await press('Home', 'Home');
+    await status('e.hash && e.time === 0');
+    await press('End', 'End');
+    await status(`e.hash === '${head.hash}'`);
+    await press('Comma', ';', true);
+    await status(`e.hash && e.time < ${head.time}`);
+    const [x, y, width, height] = await place_of('viewport');
+    for (let k = 0; k < 10 && ((await last('pick'))?.particle ?? null) === null; ++k) {
+      await click_at(x + width / 2 + 7 * k, y + height / 2);
+      await sleep(500);
+    }
+    assert.ok((await last('pick')).particle !== null);
+    await sleep(1000);
+  });
+});
+
 test('the gallery makes its pictures in slices', async () => {
   await open('cradle', '&until=0');
   await need_short_tasks(async () => {

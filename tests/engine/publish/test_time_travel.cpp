@@ -394,7 +394,7 @@ TEST_CASE("Time travel: backwards, each frame is that of the run at its time") {
   for (int number = 1; number <= 192; ++number) {
     const double time = 12.0 - number * kInterval;
     std::optional<Frame> frame;
-    while (!(frame = rewinder.take(time))) rewinder.work();
+    while (!(frame = rewinder.take(time))) rewinder.work({});
     REQUIRE(frame->snapshot.time == doctest::Approx(time).epsilon(1e-14));
     CHECK_FALSE(rewinder.due(time));
     if (number % 16 != 0) continue;
@@ -412,10 +412,10 @@ TEST_CASE("Time travel: backwards, each frame is that of the run at its time") {
 TEST_CASE("Time travel: frames that are late are left out") {
   const auto run = changed_run(driven_disks());
   Rewinder rewinder(*run, 1.0);
-  while (rewinder.busy()) rewinder.work();
+  while (rewinder.busy()) rewinder.work({});
   CHECK(rewinder.take(5.2)->snapshot.time == doctest::Approx(5.0));
   CHECK(rewinder.take(0.0)->snapshot.time == doctest::Approx(4.0));  // the earliest one made so far
-  while (rewinder.busy()) rewinder.work();
+  while (rewinder.busy()) rewinder.work({});
   CHECK(rewinder.take(0.0)->snapshot.time == 0.0);
 }
 

@@ -297,20 +297,22 @@ TEST_CASE("Worker: it predicts the next collision of a picked particle, then rep
   Worker worker(60.0);
   worker.send(command::Open{scene_at_speed("vibrated", 2.0), 26, false});
   worker.send(command::Pick{7});
-  const Frame picked = wait_for_handled(worker, 2);
+  const Frame picked = wait_for(
+      worker, [](const Frame& frame) { return frame.handled == 2 && frame.next_collision; });
   CHECK_FALSE(picked.last_collision);
-  REQUIRE(picked.next_collision);
   const double time = picked.next_collision->time;
   CHECK(time > 0.0);
   // Just before the event it is in the future, afterwards in the past.
   worker.send(command::Play{true, time * (1.0 - 1e-9)});
-  const Frame before =
-      wait_for(worker, [](const Frame& frame) { return frame.handled == 3 && frame.state_hash; });
+  const Frame before = wait_for(worker, [](const Frame& frame) {
+    return frame.handled == 3 && frame.state_hash && frame.next_collision;
+  });
   CHECK_FALSE(before.last_collision);
   CHECK(before.next_collision->time == doctest::Approx(time).epsilon(1e-12));
   worker.send(command::Play{true, time * (1.0 + 1e-9)});
-  const Frame after =
-      wait_for(worker, [](const Frame& frame) { return frame.handled == 4 && frame.state_hash; });
+  const Frame after = wait_for(worker, [](const Frame& frame) {
+    return frame.handled == 4 && frame.state_hash && frame.next_collision;
+  });
   REQUIRE(after.last_collision);
   CHECK(after.last_collision->time == doctest::Approx(time).epsilon(1e-12));
   CHECK(after.last_collision->partner == picked.next_collision->partner);
