@@ -151,12 +151,14 @@ LinkedScene read_link(std::string_view fragment) {
   LinkedScene linked;
   std::vector<Override> settings;
   for (std::size_t i = 1; i < parts.size(); ++i) {
-    const std::size_t sign = parts[i].find('=');
-    const std::string key = unescaped(parts[i].substr(0, sign));
-    if (sign == parts[i].npos) {
+    // Some programs escape the sign between key and value too.
+    const std::string part = unescaped(parts[i]);
+    const std::size_t sign = part.find('=');
+    const std::string key = part.substr(0, sign);
+    if (sign == part.npos) {
       throw UserError({kFile}, in_quotes(key.substr(0, 40)) + " has no value", "write &KEY=VALUE");
     }
-    const std::string value = unescaped(parts[i].substr(sign + 1));
+    const std::string value = part.substr(sign + 1);
     if (key == "seed") {
       linked.seed = seed_of(value);
     } else {

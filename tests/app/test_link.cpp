@@ -29,6 +29,8 @@ TEST_CASE("Link: a fragment names a scene of the gallery, keys with their values
 
 TEST_CASE("Link: escapes of browsers stand for their characters") {
   CHECK(read_link("vibrated&box.size=%5B30%2C%2020%5D").scene.box == Vec2(30.0, 20.0));
+  CHECK(read_link("vibrated&view.field%3Ddensity&seed%3D4").scene.view.field == Quantity::Density);
+  CHECK(read_link("vibrated&caption=%22a%3Db%22").scene.caption == "a=b");
 }
 
 TEST_CASE("Link: a copied link has the scene with its changes") {
