@@ -317,6 +317,7 @@ class EngineWork {
         shows_partners_ = collision.has_value();
         go_to(collision.value_or(0.0));
       }
+      if (!watched_->prepare(pauses)) return;
       while (time() < *going_to_ && !watched_->run_until(*going_to_, kNoLimit, kNoLimit, pauses)) {
         if (pauses()) return;
       }

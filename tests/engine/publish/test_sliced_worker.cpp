@@ -141,3 +141,76 @@ TEST_CASE("SlicedWorker: a large gas gets short slices after a small gas") {
   CHECK(frame.snapshot.time > 0.0);
   CHECK(frame.snapshot.collisions < 10'000);
 }
+
+TEST_CASE("SlicedWorker: a large gas goes to another time in slices, and commands wait for it") {
+  SlicedWorker engine;
+  engine.send(command::Open{large_scene(), 1, false});
+  engine.send(command::SetSpeed{100.0});
+  engine.send(command::Play{true, 1.0});
+  const auto at = [](double time) {
+    return [time](const Frame& frame) { return !frame.plays && frame.snapshot.time == time; };
+  };
+  REQUIRE(work_until(engine, at(1.0)));
+  const auto hash = engine.frames().front().state_hash;
+
+  // No frame shows a time on the way.
+  engine.send(command::Jump{0.9});
+  int slices = 0;
+  REQUIRE(work_until(engine, [&](const Frame& frame) {
+    ++slices;
+    CHECK((frame.snapshot.time == 0.9 || frame.snapshot.time == 1.0));
+    CHECK(engine.busy() == (frame.snapshot.time == 1.0));
+    return frame.snapshot.time == 0.9;
+  }));
+  CHECK(slices > 1);
+  // A later jump ends an earlier one.
+  engine.send(command::Jump{0.7});
+  engine.work(2ms);
+  engine.send(command::Jump{1.0});
+  REQUIRE(work_until(engine, [](const Frame& frame) {
+    CHECK((frame.snapshot.time == 0.9 || frame.snapshot.time == 1.0));
+    return frame.snapshot.time == 1.0;
+  }));
+  CHECK(engine.frames().front().state_hash == hash);
+
+  engine.send(command::Jump{0.5});
+  engine.send(command::SetLaws{{{"particles.restitution", "0.5"}}});
+  REQUIRE(work_until(engine, [](const Frame& frame) { return !frame.scene->changes.empty(); }));
+  CHECK(engine.frames().front().scene->changes.front().time == doctest::Approx(0.5).epsilon(0.5));
+  CHECK(engine.frames().front().head < 1.0);
+}
+
+TEST_CASE("SlicedWorker: a step back in a large gas is made in slices, to the bit") {
+  SlicedWorker engine;
+  engine.send(command::Open{large_scene(), 1, false});
+  engine.send(command::Step{0.5});
+  REQUIRE(work_until(engine, [](const Frame& frame) { return frame.snapshot.time == 0.5; }));
+  engine.send(command::StepCollision{});
+  REQUIRE(work_until(engine, [](const Frame& frame) { return frame.partners.has_value(); }));
+  const auto [partners, hash] =
+      std::pair(engine.frames().front().partners, engine.frames().front().state_hash);
+  engine.send(command::StepCollision{});
+  REQUIRE(work_until(engine, [&](const Frame& frame) { return frame.partners != partners; }));
+  engine.send(command::StepBack{});
+  int slices = 0;
+  REQUIRE(work_until(engine, [&](const Frame& frame) {
+    ++slices;
+    return frame.partners == partners;
+  }));
+  CHECK(slices > 1);
+  CHECK(engine.frames().front().state_hash == hash);
+}
+
+TEST_CASE("SlicedWorker: the next collision in a large gas is searched in slices") {
+  SlicedWorker engine;
+  engine.send(command::Open{large_scene(), 1, false});
+  REQUIRE(work_until(engine, [](const Frame& frame) { return frame.handled == 1; }));
+  engine.send(command::Pick{7});
+  int slices = 0;
+  REQUIRE(work_until(engine, [&](const Frame& frame) {
+    ++slices;
+    CHECK(engine.busy() == !frame.next_collision);
+    return frame.next_collision.has_value();
+  }));
+  CHECK(slices > 1);
+}
