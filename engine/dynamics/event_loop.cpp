@@ -221,6 +221,8 @@ template <int D>
 void EventLoop<D>::plan_again() {
   Preparation work;
   if (plans_.empty()) {
+    // After drop_plans() there is hardly any cell.
+    near_.reset(whole_box<D>(model_), static_cast<double>(gas_.particles.size()));
     place(work, {});
   } else if (near_.fit(plans_)) {
     for (std::size_t i = 0; i < gas_.particles.size(); ++i) put_into_cell(i);

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <exception>
 #include <limits>
+#include <numbers>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -252,25 +253,37 @@ void Foresight<D>::gather(const ParticleStates<D>& gas, const Tile& tile,
   }
 }
 
+// Runs the loop of a tile to the end of the window. Returns whether it gets there.
 template <int D>
-void Foresight<D>::run(const ParticleStates<D>& gas, double end, bool keep_events, Tile& tile,
-                       Bench& bench) {
+bool Foresight<D>::finish(EventLoop<D>& loop, Round& round, Tile& tile) const {
+  constexpr std::uint64_t kSteps = 4096;  // between two looks at the other tiles
+  using Halt = typename EventLoop<D>::Halt;
+  tile.base_due = false;
+  for (std::uint64_t before = 0; !round.abandoned;) {
+    const Halt halt = loop.advance(round.end, kNoLimit, loop.counts().steps() + kSteps);
+    if (halt == Halt::Time) return true;
+    if (halt == Halt::BaseDue) tile.base_due = true;
+    const std::uint64_t now = loop.counts().collisions();
+    const auto all = static_cast<double>(round.collisions += now - std::exchange(before, now));
+    if (all > round.most || round.stop.made()) round.abandoned = true;
+  }
+  return false;
+}
+
+template <int D>
+void Foresight<D>::run(const ParticleStates<D>& gas, Round& round, Tile& tile, Bench& bench) {
+  if (round.abandoned) return;
+  const double end = round.end;
   const Subdomain<D> subdomain = subdomain_of(tile);
   TileRecord<D>& record = bench.record;
   gather(gas, tile, subdomain, record);
   for (int axis = 0; axis < D; ++axis) record.cut[axis] = static_cast<float>(cut_[axis]);
   record.events.clear();
-  record.keeps_events = keep_events;
+  record.keeps_events = round.keep_events;
   record.pair_collisions = record.wall_collisions = 0;
   EventLoop<D>& loop = bench.loop;
   loop.load(gas, subdomain, record, end_);
-  // A tile with far more events than the others may collapse.
-  const auto most = static_cast<std::uint64_t>(100.0 * sizes_.particles * sizes_.collisions);
-  using Halt = typename EventLoop<D>::Halt;
-  Halt halt;
-  tile.base_due = false;
-  while ((halt = loop.advance(end, most, kNoLimit)) == Halt::BaseDue) tile.base_due = true;
-  tile.overrun = halt != Halt::Time;
+  if (!finish(loop, round, tile)) return;
   tile.pair_collisions = record.pair_collisions;
   tile.wall_collisions = record.wall_collisions;
   tile.all_collisions = loop.counts().collisions();
@@ -343,22 +356,59 @@ void Foresight<D>::certify(Tile& tile, double farthest, double bend) const {
   tile.lack = certificate.lack(tile.exposure, bend);
 }
 
-// The end of the next window.
+// The speed that a wall gives to particles at rest.
+static double speed_of(const Wall& wall) {
+  if (wall.kind == WallKind::Thermal) return std::sqrt(wall.temperature);
+  return wall.drive_speed + std::numbers::pi * wall.stroke * wall.frequency;
+}
+
+// A speed that the gas has now or may soon have: the thermal one, or a fraction of the largest
+// speed of particles and walls, so that a gas at equilibrium has the thermal one.
+template <int D>
+double Foresight<D>::speed_scale(const ParticleStates<D>& gas) const {
+  constexpr double kOfFastest = 0.01, kOfWalls = 1.0 / 3.0;
+  double squares = 0.0, largest = 0.0;
+  for (const Particle<D>& particle : gas.particles) {
+    const double square = particle.flight.velocity_at(end_, model_.gravity).squaredNorm();
+    squares += square;
+    largest = std::max(largest, square);
+  }
+  const auto count = static_cast<double>(gas.particles.size());
+  double scale = std::max({std::sqrt(squares / (D * count)), kOfFastest * std::sqrt(largest),
+                           std::sqrt(model_.gravity.norm() * model_.diameter)});
+  for (const auto& wall : model_.walls) {
+    if (wall) scale = std::max(scale, kOfWalls * speed_of(*wall));
+  }
+  return scale;
+}
+
+// The end of the next window. A gas that is colder than its drive has few collisions now, and may
+// have many soon.
 template <int D>
 double Foresight<D>::choose_end(const ParticleStates<D>& gas, double horizon, double most) const {
-  double span;
-  if (rate_ > 0.0) {
-    span = std::min(2.0 * span_, std::min(typical_window(), most) / rate_);
-  } else {
-    double squares = 0.0;
-    for (const Particle<D>& particle : gas.particles) {
-      squares += particle.flight.velocity_at(end_, model_.gravity).squaredNorm();
-    }
-    const auto count = static_cast<double>(gas.particles.size());
-    span = 0.1 * model_.diameter / std::sqrt(squares / (D * count));
-  }
+  constexpr double kFirst = 0.1;  // diameters
+  const double speed = speed_scale(gas);
   // A gas at rest has no scale of time: no window.
-  return std::isfinite(span) ? std::min(horizon, end_ + span) : end_;
+  if (!(speed > 0.0)) return end_;
+  const auto count = static_cast<double>(gas.particles.size());
+  const double free_path = model_.box.prod() / (count * std::pow(model_.diameter, D - 1));
+  double span = std::max(kFirst * model_.diameter, sizes_.collisions * free_path) / speed;
+  if (rate_ > 0.0) span = std::min(span, std::min(typical_window(), most) / rate_);
+  span = std::min(span, span_ > 0.0 ? 2.0 * span_ : kFirst * model_.diameter / speed);
+  return std::min(horizon, end_ + span);
+}
+
+// Of a round whose window has about the expected number.
+template <int D>
+double Foresight<D>::most_collisions() const {
+  constexpr double kMore = 4.0;
+  double copies = 1.0;  // of each particle, with the particle itself
+  for (int axis = 0; axis < D; ++axis) {
+    if (cut_[axis] == 0.0) continue;
+    const double core = model_.box[axis] / tile_counts_[axis];
+    copies *= std::min(1.0 + 2.0 * halo_ / core, static_cast<double>(tile_counts_[axis]));
+  }
+  return kMore * copies * std::max(typical_window(), static_cast<double>(order_.size()));
 }
 
 // Chooses the width of the next window's halos from the widths that this window has shown to be
@@ -376,7 +426,8 @@ void Foresight<D>::fit_halo() {
 
 // Runs all tiles to a time. Returns whether all have a certificate.
 template <int D>
-bool Foresight<D>::run_tiles(const ParticleStates<D>& gas, double end, bool keep_events) {
+bool Foresight<D>::run_tiles(const ParticleStates<D>& gas, double end, bool keep_events,
+                             const StopRequest& stop) {
   constexpr int kRounds = 6;
   constexpr double kWidest = 2.0;  // edges of a tile
   if (!(end > end_)) return false;
@@ -388,18 +439,20 @@ bool Foresight<D>::run_tiles(const ParticleStates<D>& gas, double end, bool keep
     tiles_[k].halo = halo_;
   }
   ++work_.windows;
-  for (int round = 0; round < kRounds; ++round) {
-    in_parallel(todo.size(), [&](std::size_t k, Bench& bench) {
-      run(gas, end, keep_events, tiles_[todo[k]], bench);
-    });
+  for (int number = 0; number < kRounds; ++number) {
+    Round round{end, keep_events, stop, most_collisions()};
+    in_parallel(todo.size(),
+                [&](std::size_t k, Bench& bench) { run(gas, round, tiles_[todo[k]], bench); });
+    if (round.abandoned) {
+      constexpr double kShorter = 1.0 / 16.0;
+      if (!stop.made()) span_ = kShorter * (end - end_);
+      return false;
+    }
     work_.tiles += todo.size();
-    if (round > 0) work_.redone += todo.size();
+    if (number > 0) work_.redone += todo.size();
     for (const std::size_t k : todo) work_.all += tiles_[k].all_collisions;
     double farthest = 0.0;
-    for (const Tile& tile : tiles_) {
-      if (tile.overrun) return false;
-      farthest = std::max(farthest, tile.farthest);
-    }
+    for (const Tile& tile : tiles_) farthest = std::max(farthest, tile.farthest);
     in_parallel(tiles_.size(), [&](std::size_t k, Bench&) { certify(tiles_[k], farthest, bend); });
     todo.clear();
     for (std::size_t k = 0; k < tiles_.size(); ++k) {
@@ -407,7 +460,7 @@ bool Foresight<D>::run_tiles(const ParticleStates<D>& gas, double end, bool keep
       todo.push_back(k);
       tiles_[k].halo = std::max(kGrowth * tiles_[k].halo, tiles_[k].halo + 1.2 * tiles_[k].lack);
     }
-    if (round == 0) fit_halo();
+    if (number == 0) fit_halo();
     if (todo.empty()) return true;
     // Tiles that are mostly halo do not pay.
     const bool pays =
@@ -429,20 +482,22 @@ void Foresight<D>::note_window(double end) {
 }
 
 template <int D>
-bool Foresight<D>::look_ahead(const ParticleStates<D>& gas, double horizon, std::uint64_t most) {
+bool Foresight<D>::look_ahead(const ParticleStates<D>& gas, double horizon, std::uint64_t most,
+                              const StopRequest& stop) {
   constexpr double kMore = 1.01;  // than the expected part of `most`
   const double start = end_;
   const double end = choose_end(gas, horizon, kMore * static_cast<double>(most) + 1.0);
-  if (!run_tiles(gas, end, true)) return false;
+  if (!run_tiles(gas, end, true, stop)) return false;
   note_window(end);
   merge(start, end);
   return true;
 }
 
 template <int D>
-bool Foresight<D>::advance(EventLoop<D>& gas, double horizon, std::uint64_t most) {
+bool Foresight<D>::advance(EventLoop<D>& gas, double horizon, std::uint64_t most,
+                           const StopRequest& stop) {
   const double end = choose_end(gas.gas(), horizon, static_cast<double>(most));
-  if (!run_tiles(gas.gas(), end, false)) return false;
+  if (!run_tiles(gas.gas(), end, false, stop)) return false;
   std::uint64_t pairs = 0, walls = 0;
   RunChecks checks;
   for (const Tile& tile : tiles_) {

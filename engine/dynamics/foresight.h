@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -16,6 +17,7 @@
 #include "engine/dynamics/subdomain.h"
 #include "engine/dynamics/tile_record.h"
 #include "engine/physics/flight.h"
+#include "engine/stop_request.h"
 
 namespace clatter {
 
@@ -65,13 +67,14 @@ class Foresight {
   double end() const { return end_; }
   /// Finds the next events after end(), but none after `horizon`. `gas` has had all earlier events.
   /// `most` is the number of events for which the caller has use. Returns false without a
-  /// certificate.
-  bool look_ahead(const ParticleStates<D>& gas, double horizon, std::uint64_t most);
+  /// certificate, at a stop request, or if the window has far more events than expected.
+  bool look_ahead(const ParticleStates<D>& gas, double horizon, std::uint64_t most,
+                  const StopRequest& stop = {});
   /// Runs `gas`, which has had all events up to end(), through the next window, up to `horizon` at
-  /// most. Returns false, and changes nothing, without a certificate, after more than `most`
+  /// most. Returns false, and changes nothing, as look_ahead() does, after more than `most`
   /// collisions, or if the base would have to move. Only for gases without t_c that nobody
   /// observes.
-  bool advance(EventLoop<D>& gas, double horizon, std::uint64_t most);
+  bool advance(EventLoop<D>& gas, double horizon, std::uint64_t most, const StopRequest& stop = {});
   /// Number of collisions of a full window.
   double typical_window() const {
     return 0.5 * sizes_.collisions * static_cast<double>(order_.size());
@@ -117,9 +120,17 @@ class Foresight {
     std::uint64_t wall_collisions = 0;
     std::uint64_t all_collisions = 0;  // of copies too
     RunChecks checks;                  // of own particles
-    bool overrun = false;              // whether the run had too many events
     bool base_due = false;             // whether a particle became too fast for the base
     double lack = 0.0;  // part of the halo's width that a certificate lacks; negative: certified
+  };
+  // One run of tiles to the end of a window.
+  struct Round {
+    double end;
+    bool keep_events;
+    const StopRequest& stop;
+    double most;  // collisions of all particles, copies included
+    std::atomic<std::uint64_t> collisions{0};
+    std::atomic<bool> abandoned{false};  // at a stop request, or after too many collisions
   };
   // The loop of one thread, which runs one tile after another.
   struct Bench {
@@ -131,12 +142,16 @@ class Foresight {
 
   void in_parallel(std::size_t count, const std::function<void(std::size_t, Bench&)>& work);
   double choose_end(const ParticleStates<D>& gas, double horizon, double most) const;
-  bool run_tiles(const ParticleStates<D>& gas, double end, bool keep_events);
+  double speed_scale(const ParticleStates<D>& gas) const;
+  double most_collisions() const;
+  bool run_tiles(const ParticleStates<D>& gas, double end, bool keep_events,
+                 const StopRequest& stop);
   void sort_into_blocks(const ParticleStates<D>& gas);
   Subdomain<D> subdomain_of(Tile& tile) const;
   void gather(const ParticleStates<D>& gas, const Tile& tile, const Subdomain<D>& subdomain,
               TileRecord<D>& record) const;
-  void run(const ParticleStates<D>& gas, double end, bool keep_events, Tile& tile, Bench& bench);
+  void run(const ParticleStates<D>& gas, Round& round, Tile& tile, Bench& bench);
+  bool finish(EventLoop<D>& loop, Round& round, Tile& tile) const;
   void certify(Tile& tile, double farthest, double bend) const;
   void fit_halo();
   void note_window(double end);
@@ -159,7 +174,7 @@ class Foresight {
   LargeArray<float> strayed_;                    // [N]
   double end_ = 0.0;
   double rate_ = 0.0;  // collisions per time; 0: unknown
-  double span_ = 0.0;  // of the last window
+  double span_ = 0.0;  // of the last window, or a small part of one that was too long; 0: unknown
   LargeArray<ForeseenEvent<D>> events_;
   std::size_t at_ = 0;  // of the next event
   // Events that come after a simultaneous one by rounding, although their times are earlier.

@@ -205,15 +205,17 @@ void Simulation<D>::use_threads(int threads, const TileSizes& sizes) {
 
 template <int D>
 typename EventLoop<D>::Halt Simulation<D>::advance(double stop, std::uint64_t collisions,
-                                                   std::uint64_t steps) {
-  return in_tiles_ ? follow_foresight(stop, collisions, steps)
+                                                   std::uint64_t steps,
+                                                   const StopRequest& stop_request) {
+  return in_tiles_ ? follow_foresight(stop, collisions, steps, stop_request)
                    : loop_.advance(stop, collisions, steps);
 }
 
 // Advances by a whole window of the tiles, if nothing needs its events in order. Returns whether it
 // has.
 template <int D>
-bool Simulation<D>::advance_window(double stop, std::uint64_t collisions, std::uint64_t steps) {
+bool Simulation<D>::advance_window(double stop, std::uint64_t collisions, std::uint64_t steps,
+                                   const StopRequest& stop_request) {
   constexpr double kReserve = 1.2;  // a window may have more events than expected
   if (loop_.is_watched() || model_.contact_time || foresight_->has_events()) return false;
   if (counts().collisions() >= collisions || counts().steps() >= steps) return false;
@@ -221,12 +223,14 @@ bool Simulation<D>::advance_window(double stop, std::uint64_t collisions, std::u
       {loop_.until_base_moves(), collisions - counts().collisions(), steps - counts().steps()});
   if (static_cast<double>(most) < kReserve * foresight_->typical_window()) return false;
   const double horizon = std::min(stop, next_kick());
-  return foresight_->fits_before(horizon) && foresight_->advance(loop_, horizon, most);
+  return foresight_->fits_before(horizon) &&
+         foresight_->advance(loop_, horizon, most, stop_request);
 }
 
 template <int D>
 typename EventLoop<D>::Halt Simulation<D>::follow_foresight(double stop, std::uint64_t collisions,
-                                                            std::uint64_t steps) {
+                                                            std::uint64_t steps,
+                                                            const StopRequest& stop_request) {
   using Halt = typename EventLoop<D>::Halt;
   constexpr std::size_t kAhead = 12;  // events whose particles are prefetched
   const auto is_next = [this](const ForeseenEvent<D>& event) { return loop_.is_next(event); };
@@ -234,7 +238,8 @@ typename EventLoop<D>::Halt Simulation<D>::follow_foresight(double stop, std::ui
     const ForeseenEvent<D>* next = foresight_->next(is_next);
     if (!next) {
       if (foresight_->end() >= stop) return Halt::Time;
-      if (!foresight_->look_ahead(loop_.gas(), next_kick(), loop_.until_base_moves())) {
+      if (!foresight_->look_ahead(loop_.gas(), next_kick(), loop_.until_base_moves(),
+                                  stop_request)) {
         leave_tiles();
         return Halt::Limit;
       }
@@ -285,8 +290,9 @@ bool Simulation<D>::run_until(double time, std::uint64_t collisions, std::uint64
     const double kick_time = next_kick();
     const bool kicks = kick_time < kNever && kick_time <= stop;
     if (kicks) stop = kick_time;
-    if (in_tiles_ && advance_window(stop, collisions, steps)) continue;
-    const Halt halt = advance(stop, collisions, std::min(steps, counts().steps() + kStepsPerLook));
+    if (in_tiles_ && advance_window(stop, collisions, steps, stop_request)) continue;
+    const Halt halt =
+        advance(stop, collisions, std::min(steps, counts().steps() + kStepsPerLook), stop_request);
     attend_to(halt);
     if (halt == Halt::Limit && (counts().collisions() >= collisions || counts().steps() >= steps)) {
       return false;

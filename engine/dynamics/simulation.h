@@ -133,10 +133,13 @@ class Simulation {
   void attend_to(typename EventLoop<D>::Halt halt);
   void choose_way();
   void leave_tiles();
-  typename EventLoop<D>::Halt advance(double stop, std::uint64_t collisions, std::uint64_t steps);
-  bool advance_window(double stop, std::uint64_t collisions, std::uint64_t steps);
+  typename EventLoop<D>::Halt advance(double stop, std::uint64_t collisions, std::uint64_t steps,
+                                      const StopRequest& stop_request);
+  bool advance_window(double stop, std::uint64_t collisions, std::uint64_t steps,
+                      const StopRequest& stop_request);
   typename EventLoop<D>::Halt follow_foresight(double stop, std::uint64_t collisions,
-                                               std::uint64_t steps);
+                                               std::uint64_t steps,
+                                               const StopRequest& stop_request);
 
   Model<D> model_;
   Clock clock_;

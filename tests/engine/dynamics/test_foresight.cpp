@@ -1,7 +1,11 @@
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <cstdint>
 #include <cstring>
+#include <ctime>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +16,7 @@
 #include "engine/error.h"
 #include "engine/initial/start_state.h"
 #include "engine/physics/random.h"
+#include "engine/publish/scheduled_run.h"
 #include "engine/scene/scene_file.h"
 #include "tests/engine/support/gas.h"
 
@@ -332,5 +337,80 @@ TEST_CASE("Foresight: a run whose limit of collisions is reached does not contin
   tiled.use_threads(2, {.particles = 200.0, .collisions = 1.0, .halo = 4.0});
   CHECK(!tiled.run_until(kNever, 5000));
   CHECK(tiled.counts().collisions() == 9000);
+  CHECK(tiled.state_hash() == whole.state_hash());
+}
+
+namespace {
+
+// Cold gases that walls, gravity or a fast particle drive.
+const char* const kColdScenes[] = {
+    R"(walls.left = { kind = "thermal", temperature = 4.0 }
+       walls.right.kind = "static")",
+    R"(walls.left = { kind = "driven", drive_speed = 2.0 }
+       walls.right = { kind = "sinusoidal", stroke = 0.3, frequency = 2.0 })",
+    R"(walls.bottom.kind = "static"
+       walls.top.kind = "static"
+       gravity.acceleration = [0.0, -1.0])",
+    R"(change = [{ time = 0.1, nudge = { particle = 5, set = [3.0, 0.0] } }])",
+};
+
+}  // namespace
+
+// The present rate of collisions says nothing about the next window.
+TEST_CASE("Foresight: a cold gas that is driven has the bits of the whole, for about its work") {
+  for (const char* const text : kColdScenes) {
+    CAPTURE(text);
+    for (const char* const temperature : {"0.0", "1e-10", "1e-6"}) {
+      CAPTURE(temperature);
+      const Scene scene = parse_scene(
+          {std::string("box.size = [70, 60]\nparticles.count = 2200\n") + text, "a scene"},
+          {{"particles.start.temperature", temperature}});
+      const auto run = [&](bool tiles) {
+        auto gas = std::make_unique<ScheduledRun<2>>(scene, kForesightSeed);
+        if (tiles)
+          gas->simulation().use_threads(2, {.particles = 300.0, .collisions = 2.5, .halo = 8.0});
+        gas->run_until(30.0);
+        return gas;
+      };
+      const auto whole = run(false), tiled = run(true);
+      CHECK(whole->simulation().state_hash() == tiled->simulation().state_hash());
+      if (const Foresight<2>* foresight = tiled->simulation().foresight()) {
+        const std::uint64_t collisions = tiled->simulation().counts().collisions();
+        CHECK(foresight->work().all < 40 * (collisions + 2200));
+      }
+    }
+  }
+}
+
+// The time to leave the tiles is compared with that of a start.
+TEST_CASE("Foresight: a gas that leaves its tiles is planned again in little time") {
+  const auto seconds = [](const auto& act) {
+    const std::clock_t begin = std::clock();
+    act();
+    return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  };
+  const Model<2> model = periodic_box(400.0, 400.0);
+  State<2> state = random_gas(model, 60'000, 3);
+  for (Vec2& velocity : state.velocities) velocity.setZero();  // no window
+  std::optional<Simulation<2>> gas;
+  const double start = seconds([&] { gas.emplace(model, state); });
+  gas->use_threads(2, {.particles = 10'000.0, .collisions = 2.5, .halo = 8.0});
+  CHECK(gas->tiles() > 1);
+  const double leaving = seconds([&] { CHECK(gas->run_until(1.0)); });
+  CHECK(leaving < 20.0 * start + 0.1);
+}
+
+TEST_CASE("Foresight: a stop request ends a window, and the run continues with the same bits") {
+  const Model<2> model = periodic_box(300.0, 300.0);
+  const State<2> state = random_gas(model, 40'000, 3);
+  Simulation<2> whole(model, state), tiled(model, state);
+  tiled.use_threads(2, {.particles = 10'000.0, .collisions = 2.5, .halo = 10.0});
+  REQUIRE(tiled.tiles() > 1);
+  // In the first windows, at a question of a tile.
+  std::atomic<int> left{12};
+  CHECK(!tiled.run_until(1.0, kNoLimit, kNoLimit, [&left] { return --left < 0; }));
+  CHECK(tiled.time() < 1.0);
+  CHECK(tiled.run_until(1.0));
+  CHECK(whole.run_until(1.0));
   CHECK(tiled.state_hash() == whole.state_hash());
 }
