@@ -261,10 +261,10 @@ bool Foresight<D>::finish(EventLoop<D>& loop, Round& round, Tile& tile) const {
   tile.base_due = false;
   for (std::uint64_t before = 0; !round.abandoned;) {
     const Halt halt = loop.advance(round.end, kNoLimit, loop.counts().steps() + kSteps);
-    if (halt == Halt::Time) return true;
-    if (halt == Halt::BaseDue) tile.base_due = true;
     const std::uint64_t now = loop.counts().collisions();
     const auto all = static_cast<double>(round.collisions += now - std::exchange(before, now));
+    if (halt == Halt::Time) return true;
+    if (halt == Halt::BaseDue) tile.base_due = true;
     if (all > round.most || round.stop.made()) round.abandoned = true;
   }
   return false;
@@ -286,7 +286,6 @@ void Foresight<D>::run(const ParticleStates<D>& gas, Round& round, Tile& tile, B
   if (!finish(loop, round, tile)) return;
   tile.pair_collisions = record.pair_collisions;
   tile.wall_collisions = record.wall_collisions;
-  tile.all_collisions = loop.counts().collisions();
   tile.checks = loop.checks();
   tile.events.clear();
   for (const ForeseenEvent<D>& found : record.events) {
@@ -443,6 +442,7 @@ bool Foresight<D>::run_tiles(const ParticleStates<D>& gas, double end, bool keep
     Round round{end, keep_events, stop, most_collisions()};
     in_parallel(todo.size(),
                 [&](std::size_t k, Bench& bench) { run(gas, round, tiles_[todo[k]], bench); });
+    work_.all += round.collisions;
     if (round.abandoned) {
       constexpr double kShorter = 1.0 / 16.0;
       if (!stop.made()) span_ = kShorter * (end - end_);
@@ -450,7 +450,6 @@ bool Foresight<D>::run_tiles(const ParticleStates<D>& gas, double end, bool keep
     }
     work_.tiles += todo.size();
     if (number > 0) work_.redone += todo.size();
-    for (const std::size_t k : todo) work_.all += tiles_[k].all_collisions;
     double farthest = 0.0;
     for (const Tile& tile : tiles_) farthest = std::max(farthest, tile.farthest);
     in_parallel(tiles_.size(), [&](std::size_t k, Bench&) { certify(tiles_[k], farthest, bend); });

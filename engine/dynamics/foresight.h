@@ -49,7 +49,7 @@ class Foresight {
     std::uint64_t tiles = 0;   ///< runs of tiles
     std::uint64_t redone = 0;  ///< of these, runs with a larger halo
     std::uint64_t own = 0;     ///< collisions of own particles
-    std::uint64_t all = 0;     ///< collisions of all particles, copies included
+    std::uint64_t all = 0;     ///< collisions of all particles, copies and abandoned runs included
   };
 
   /// Foresight for a number of particles. `model` and `boundary` must outlive it. It has one tile
@@ -118,9 +118,8 @@ class Foresight {
     double exposure = 0.0;  // largest way of an own particle minus its depth in the core
     std::uint64_t pair_collisions = 0;  // of own particles
     std::uint64_t wall_collisions = 0;
-    std::uint64_t all_collisions = 0;  // of copies too
-    RunChecks checks;                  // of own particles
-    bool base_due = false;             // whether a particle became too fast for the base
+    RunChecks checks;       // of own particles
+    bool base_due = false;  // whether a particle became too fast for the base
     double lack = 0.0;  // part of the halo's width that a certificate lacks; negative: certified
   };
   // One run of tiles to the end of a window.
