@@ -82,6 +82,7 @@ Foresight<D>::Foresight(const Model<D>& model, const Boundary<D>& boundary, std:
 template <int D>
 void Foresight<D>::restart(double time) {
   end_ = time;
+  fresh_ = true;
   events_.clear();
   waiting_.clear();
   at_ = 0;
@@ -478,6 +479,7 @@ void Foresight<D>::note_window(double end) {
   span_ = end - end_;
   rate_ = std::max(static_cast<double>(found) / span_, 0.5 * rate_);
   end_ = end;
+  fresh_ = false;
 }
 
 template <int D>

@@ -63,14 +63,15 @@ class Foresight {
   std::size_t tiles() const { return tiles_.size(); }
   /// Drops all foreseen events. The next window begins at a time on the base.
   void restart(double time);
-  /// Time on the base up to which events are foreseen.
-  double end() const { return end_; }
-  /// Finds the next events after end(), but none after `horizon`. `gas` has had all earlier events.
-  /// `most` is the number of events for which the caller has use. Returns false without a
+  /// Whether all events up to and at a time on the base are foreseen. Others may have the time of
+  /// restart().
+  bool covers(double time) const { return fresh_ ? end_ > time : end_ >= time; }
+  /// Finds the events of the next window, but none after `horizon`. `gas` has had all earlier
+  /// events. `most` is the number of events for which the caller has use. Returns false without a
   /// certificate, at a stop request, or if the window has far more events than expected.
   bool look_ahead(const ParticleStates<D>& gas, double horizon, std::uint64_t most,
                   const StopRequest& stop = {});
-  /// Runs `gas`, which has had all events up to end(), through the next window, up to `horizon` at
+  /// Runs `gas`, which has had all earlier events, through the next window, up to `horizon` at
   /// most. Returns false, and changes nothing, as look_ahead() does, after more than `most`
   /// collisions, or if the base would have to move. Only for gases without t_c that nobody
   /// observes.
@@ -85,8 +86,8 @@ class Foresight {
   }
   /// Whether there are foreseen events.
   bool has_events() const { return at_ < events_.size() || !waiting_.empty(); }
-  /// The next event, or null up to end(). `is_next(event)` returns whether an event begins with the
-  /// current flights of its particles.
+  /// The next event, or null. `is_next(event)` returns whether an event begins with the current
+  /// flights of its particles.
   template <typename IsNext>
   const ForeseenEvent<D>* next(const IsNext& is_next);
   /// Removes the event that next() returned.
@@ -171,8 +172,9 @@ class Foresight {
   std::vector<std::uint32_t> first_;             // [blocks + 1] places in order_
   ParticleStates<D> ends_;                       // [N] at the end of the window
   LargeArray<float> strayed_;                    // [N]
-  double end_ = 0.0;
-  double rate_ = 0.0;  // collisions per time; 0: unknown
+  double end_ = 0.0;                             // of the last window, on the base
+  bool fresh_ = true;                            // no window since restart()
+  double rate_ = 0.0;                            // collisions per time; 0: unknown
   double span_ = 0.0;  // of the last window, or a small part of one that was too long; 0: unknown
   LargeArray<ForeseenEvent<D>> events_;
   std::size_t at_ = 0;  // of the next event

@@ -237,7 +237,7 @@ typename EventLoop<D>::Halt Simulation<D>::follow_foresight(double stop, std::ui
   while (counts().collisions() < collisions && counts().steps() < steps) {
     const ForeseenEvent<D>* next = foresight_->next(is_next);
     if (!next) {
-      if (foresight_->end() >= stop) return Halt::Time;
+      if (foresight_->covers(stop)) return Halt::Time;
       if (!foresight_->look_ahead(loop_.gas(), next_kick(), loop_.until_base_moves(),
                                   stop_request)) {
         leave_tiles();

@@ -378,6 +378,24 @@ TEST_CASE("Foresight: a cold gas that is driven has the bits of the whole") {
   }
 }
 
+// Disks of a lattice touch the walls, and half of them move towards them.
+TEST_CASE("Foresight: events at the time of the start are processed up to this time") {
+  const Scene scene = parse_scene(R"(box.size = [60, 60]
+      particles = { count = 1600, start.layout = "lattice" }
+      walls.left = { kind = "static", restitution = 0.5 }
+      walls.right = { kind = "static", restitution = 0.5 })",
+                                  "a scene");
+  const Model<2> model = model_of<2>(scene, kForesightSeed);
+  const State<2> start = start_state<2>(scene, kForesightSeed);
+  Simulation<2> whole(model, start), tiled(model, start);
+  tiled.use_threads(2, {.particles = 200.0, .collisions = 2.0, .halo = 8.0});
+  REQUIRE(tiled.tiles() > 1);
+  CHECK(whole.run_until(0.0));
+  CHECK(tiled.run_until(0.0));
+  CHECK(whole.counts().wall_collisions > 10);
+  CHECK(tiled.counts().wall_collisions == whole.counts().wall_collisions);
+}
+
 // The time to leave the tiles is compared with that of a start.
 TEST_CASE("Foresight: a gas that leaves its tiles is planned again in little time") {
   const auto seconds = [](const auto& act) {
