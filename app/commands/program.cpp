@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <new>
 #include <regex>
+#include <sstream>
 #include <system_error>
 
 #include "app/commands/command_tree.h"
@@ -12,6 +13,7 @@
 #include "app/commands/help_formatter.h"
 #include "app/system/commit.h"
 #include "app/system/exit_code.h"
+#include "app/system/outputs.h"
 #include "engine/error.h"
 #include "engine/printable.h"
 #include "engine/stop_request.h"
@@ -113,7 +115,11 @@ int run_program(int argc, const char* const* argv) {
     try {
       program.parse(static_cast<int>(words.size()), words.data());
     } catch (const CLI::ParseError& error) {
-      return program.exit(error) == 0 ? kOk : kWrongUse;
+      std::ostringstream help, mistake;
+      const bool is_help = program.exit(error, help, mistake) == 0;
+      std::fputs(mistake.str().c_str(), stderr);
+      print(help.str());
+      return is_help ? kOk : kWrongUse;
     }
   } catch (const Interrupted&) {
     return report("interrupted before the run began; nothing was saved", kInterrupted);

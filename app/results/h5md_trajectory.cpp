@@ -33,10 +33,6 @@ std::size_t h5md_record_size(std::size_t particles, bool spins) {
   return kRecordHead + h5md_quantities(spins).size() * 3 * particles;
 }
 
-std::filesystem::path h5md_records(const std::filesystem::path& path) {
-  return path.string() + ".records";
-}
-
 std::string_view raw_bytes(const std::vector<double>& numbers) {
   return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)};
 }
@@ -61,7 +57,7 @@ void copy_records(const std::filesystem::path& path, std::size_t particles, bool
 // Rebuilds the records of a complete file, all or none. A part of them would hide the complete file
 // from the next attempt.
 void restore_records(const std::filesystem::path& path, std::size_t particles, bool spins) {
-  const std::filesystem::path target = h5md_records(path);
+  const std::filesystem::path target = frames_path(path, TrajectoryFormat::H5md);
   const NewFile made = new_file_beside(target);
   if (!made.file) throw RunError("cannot write " + target.string() + ": " + std::strerror(errno));
   try {
@@ -109,11 +105,11 @@ H5mdTrajectory<D>::H5mdTrajectory(const std::filesystem::path& path, const Model
                                   std::size_t particles, bool spins, std::uint64_t bytes)
     : path_(path), model_(model), particles_(particles), spins_(spins) {
   std::error_code ignored;
-  if (bytes > 0 && !std::filesystem::exists(h5md_records(path), ignored) &&
+  if (bytes > 0 && !std::filesystem::exists(frames_path(path, TrajectoryFormat::H5md), ignored) &&
       std::filesystem::exists(path, ignored)) {
     restore_records(path, particles, spins);
   }
-  records_.emplace(h5md_records(path), bytes);
+  records_.emplace(frames_path(path, TrajectoryFormat::H5md), bytes);
 }
 
 template <int D>
@@ -134,8 +130,9 @@ void H5mdTrajectory<D>::add(const TrajectoryFrame<D>& frame) {
 template <int D>
 void H5mdTrajectory<D>::finish() {
   records_->sync();
-  std::ifstream records(h5md_records(path_), std::ios::binary);
-  if (!records) throw RunError("cannot read " + h5md_records(path_).string());
+  std::ifstream records(frames_path(path_, TrajectoryFormat::H5md), std::ios::binary);
+  if (!records)
+    throw RunError("cannot read " + frames_path(path_, TrajectoryFormat::H5md).string());
   write_large_hdf5(path_, records_->bytes(), [&](const H5::H5File& file) {
     write_head(file);
     const H5::Group all = file.createGroup("particles").createGroup("all");
@@ -176,7 +173,7 @@ void H5mdTrajectory<D>::finish() {
   });
   records_->close();
   std::error_code ignored;
-  std::filesystem::remove(h5md_records(path_), ignored);
+  std::filesystem::remove(frames_path(path_, TrajectoryFormat::H5md), ignored);
 }
 
 template class H5mdTrajectory<2>;

@@ -29,6 +29,12 @@ class TextTrajectory final : public TrajectoryFile<D> {
 
 }  // namespace
 
+std::filesystem::path frames_path(const std::filesystem::path& trajectory,
+                                  TrajectoryFormat format) {
+  if (format != TrajectoryFormat::H5md) return trajectory;
+  return trajectory.string() + ".records";
+}
+
 template <int D>
 std::unique_ptr<TrajectoryFile<D>> open_trajectory(const std::filesystem::path& path,
                                                    TrajectoryFormat format, const Model<D>& model,

@@ -147,7 +147,7 @@ void write_frame(const std::filesystem::path& path, TrajectoryFormat format,
   } catch (const RunError& error) {
     std::error_code ignored;
     std::filesystem::remove(made.path, ignored);
-    std::filesystem::remove(made.path.string() + ".records", ignored);
+    std::filesystem::remove(frames_path(made.path, format), ignored);
     std::string text = error.what();
     const std::string hidden = made.path.string();
     if (const std::size_t place = text.find(hidden); place != text.npos) {

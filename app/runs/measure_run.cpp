@@ -121,6 +121,11 @@ void prepare_outputs(const MeasureOptions& options, const Scene& scene,
   if (!options.events.empty() && records_path(options.events) != options.events) {
     outputs.push_back({"--events", records_path(options.events)});
   }
+  if (!options.trajectory.empty()) {
+    const TrajectoryFormat format = trajectory_format(options.trajectory, "--trajectory");
+    const std::filesystem::path frames = frames_path(options.trajectory, format);
+    if (frames != options.trajectory) outputs.push_back({"--trajectory", frames});
+  }
   std::vector<Output> tables;
   const auto add_tables = [&](const char* flag, const std::filesystem::path& folder,
                               const auto& names) {

@@ -33,6 +33,8 @@ void catch_interrupts() {
   std::signal(SIGINT, ask_to_end);
   std::signal(SIGTERM, ask_to_end);
   std::signal(SIGHUP, ask_to_end);
+  // A long run whose reader has ended reports this as an error, and writes its checkpoint.
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 bool interrupted() {

@@ -162,8 +162,9 @@ TEST_CASE("Commands: a scene is read from a pipe") {
 
 TEST_CASE("Commands: output that cannot be written is a failure") {
   const Shell shell;
-  for (const std::string line : {"clatter scenes >/dev/full", "clatter check vibrated >&-",
-                                 "clatter measure vibrated --until 501 >/dev/full"}) {
+  for (const std::string line :
+       {"clatter scenes >/dev/full", "clatter check vibrated >&-", "clatter --version >/dev/full",
+        "clatter measure --help >/dev/full", "clatter measure vibrated --until 501 >/dev/full"}) {
     CAPTURE(line);
     const Outcome outcome = shell.run(line);
     CHECK(outcome.code == 1);

@@ -228,6 +228,18 @@ TEST_CASE("Outputs: one that fails costs no other, and a checkpoint has the resu
   CHECK(again == whole);
 }
 
+// The reader ends at once, and so closes the pipe.
+TEST_CASE("Outputs: a result whose reader has ended is in a checkpoint, or in a new file") {
+  const Shell shell;
+  const std::string line = "clatter measure vibrated --set measure.burn_in=1 --until 30 ";
+  REQUIRE(shell.run("(" + line + "; echo $? >code) | true").code == 0);
+  CHECK(shell.read("code") == "1\n");
+  CHECK(shell.run(line + "--out r.json --resume vibrated-seed1.checkpoint").code == 0);
+  REQUIRE(shell.run("(" + line + "--replicas 2 2>told; echo $? >code) | true").code == 0);
+  CHECK(shell.read("code") == "1\n");
+  CHECK(says(shell.read("told"), "cannot write stdout: Broken pipe; the result is in"));
+}
+
 TEST_CASE("Outputs: replicas whose result cannot be written go to stdout, or to a new file") {
   const Shell shell;
   const std::string line =
