@@ -1,8 +1,10 @@
 #include "app/runs/convert.h"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <utility>
 
 #include "app/results/frame_reader.h"
@@ -59,6 +61,21 @@ ParticleFrame frame_of_checkpoint(const std::string& file) {
   });
 }
 
+bool is_text(TrajectoryFormat format) {
+  return format != TrajectoryFormat::Gsd && format != TrajectoryFormat::H5md;
+}
+
+// A text file that was cut off may end within a number, which then looks complete.
+void tell_missing_newline(const std::string& file) {
+  std::ifstream input(file, std::ios::binary | std::ios::ate);
+  if (input.tellg() <= 0) return;
+  input.seekg(-1, std::ios::end);
+  if (input.get() == '\n') return;
+  std::fprintf(stderr,
+               "note: %s ends without a newline; if it was cut off, its last number is wrong\n",
+               file.c_str());
+}
+
 ParticleFrame frame_of_file(const ConvertOptions& options) {
   std::error_code ignored;
   if (!std::filesystem::exists(options.in, ignored)) {
@@ -73,7 +90,9 @@ ParticleFrame frame_of_file(const ConvertOptions& options) {
     }
     return frame_of_checkpoint(options.in);
   }
-  return read_frame(options.in, trajectory_format(options.in, "IN"), options.frame);
+  const TrajectoryFormat format = trajectory_format(options.in, "IN");
+  if (is_text(format)) tell_missing_newline(options.in);
+  return read_frame(options.in, format, options.frame);
 }
 
 // Gives the particles of a CSV the box of the scene.

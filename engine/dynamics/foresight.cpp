@@ -398,7 +398,8 @@ double Foresight<D>::choose_end(const ParticleStates<D>& gas, double horizon, do
   return std::min(horizon, end_ + span);
 }
 
-// Of a round whose window has about the expected number.
+// A round with more collisions, copies included, is abandoned. A window of the expected length has
+// a quarter of them.
 template <int D>
 double Foresight<D>::most_collisions() const {
   constexpr double kMore = 4.0;

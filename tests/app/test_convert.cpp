@@ -138,6 +138,16 @@ TEST_CASE("Convert: files of other programs with the same columns") {
                 {"huge.h5md: the quantity \"position\" is too large"});
 }
 
+TEST_CASE("Convert: a text file without its last newline is read with a note") {
+  const Shell shell;
+  shell.write("s.csv", "x,y,vx,vy\n2,2,1,0.25\n");
+  shell.write("cut.csv", "x,y,vx,vy\n2,2,1,0.25");
+  CHECK(shell.run("clatter convert s.csv a.csv").err.empty());
+  const Outcome cut = shell.run("clatter convert cut.csv b.csv && cmp a.csv b.csv");
+  CHECK(cut.code == 0);
+  CHECK(says(cut.err, "note: cut.csv ends without a newline"));
+}
+
 TEST_CASE("Convert: malformed text files are refused with the line") {
   const Shell shell;
   const auto refused = [&](const std::string& file, const std::string& text,

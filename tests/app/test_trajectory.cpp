@@ -299,7 +299,7 @@ TEST_CASE("Trajectory: a failed write leaves a checkpoint, and wrong use is refu
   REQUIRE(shell.run(kRun + "--trajectory t.xyz --every 0.1 --resume c").code == 0);
   CHECK(shell.run(kRun + "--trajectory u.xyz --every 0.1 && cmp t.xyz u.xyz").code == 0);
 
-  check_refused(shell, kRun + "--trajectory t.h5md --every 1 --out t.h5md.records",
+  check_refused(shell, kRun + "--trajectory t.h5md --every 1 --save-state t.h5md.records",
                 {"t.h5md.records"});
   check_refused(shell, kRun + "--trajectory t.foo --every 1",
                 {"--trajectory: t.foo has no extension of a trajectory; give a name that ends in"});
