@@ -148,6 +148,19 @@ test('the key T hides the lesson of a scene, and shows it again', async () => {
   assert.equal(await height(), before);
 });
 
+test('lecture mode has a large plot, a timeline and tools, and Esc ends it', async () => {
+  await open('vibrated');
+  await press('KeyL', 'l');
+  for (const widget of ['lecture.close', 'lecture.stopwatch', 'lecture.pen', 'timeline']) {
+    await browser.until(`log.some((line) => line.includes('"name":"${widget}"'))`);
+  }
+  const [, , narrow] = await place_of('viewport');
+  await press('Escape', 'Escape');
+  await sleep(1000);
+  const [, , wide] = await place_of('viewport');
+  assert.notEqual(narrow, wide);
+});
+
 // Errors of the browser since the last call: exceptions, and what it logs, such as errors of WebGL
 // and breaches of the Content-Security-Policy.
 function complaints() {
