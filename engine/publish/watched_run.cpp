@@ -47,7 +47,7 @@ class RunOf : public WatchedRun {
   double move_change(std::size_t number, double time) override;
   double exchange_futures() override;
   bool search_back(const StopRequest& pause) override;
-  std::optional<double> previous_collision() const override;
+  std::optional<PreviousCollision> previous_collision() const override { return last_.found(); }
   void go_back(double time) override;
   void show(const View& view) override;
   void show_profile(Profiled what, Axis axis) override;
@@ -65,7 +65,9 @@ class RunOf : public WatchedRun {
     explicit LastCollision(const RunOf& run) : run_(run) {}
     void on_collision(const PairCollision<D>& collision) override {
       partners_ = {{collision.particles[0].particle, collision.particles[1].particle}};
-      if (const double time = run_.time(); time < before_) found_ = time;
+      if (const double time = run_.time(); time < before_) {
+        found_ = {settled_time(time), *partners_};
+      }
     }
     void forget() { partners_.reset(); }
     void search_before(double time) {
@@ -73,13 +75,13 @@ class RunOf : public WatchedRun {
       found_.reset();
     }
     const std::optional<std::array<std::uint32_t, 2>>& partners() const { return partners_; }
-    const std::optional<double>& found() const { return found_; }
+    const std::optional<PreviousCollision>& found() const { return found_; }
 
    private:
     const RunOf& run_;
     std::optional<std::array<std::uint32_t, 2>> partners_;
     double before_ = 0.0;
-    std::optional<double> found_;
+    std::optional<PreviousCollision> found_;
   };
 
   void observe(Simulation<D>& simulation);
@@ -443,12 +445,6 @@ bool RunOf<D>::search_back(const StopRequest& pause) {
   }
   search_.reset();
   return true;
-}
-
-template <int D>
-std::optional<double> RunOf<D>::previous_collision() const {
-  if (!last_.found()) return std::nullopt;
-  return settled_time(*last_.found());
 }
 
 template <int D>

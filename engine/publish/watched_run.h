@@ -17,6 +17,12 @@ namespace clatter {
 /// Usual memory of the record of a run, bytes.
 inline constexpr std::size_t kRecordBytes = 256'000'000;
 
+/// A collision of two particles in the past of a run.
+struct PreviousCollision {
+  double time = 0.0;  ///< settled_time() of the collision
+  std::array<std::uint32_t, 2> partners = {};
+};
+
 /// A run of disks or spheres, and its frames. Frames and scene have the same types in two and three
 /// dimensions.
 class WatchedRun {
@@ -67,8 +73,8 @@ class WatchedRun {
   /// time does not count. Returns false at a request to pause; the next call continues. Meanwhile
   /// and afterwards the run is elsewhere in its past, so that go_back() must follow.
   virtual bool search_back(const StopRequest& pause) = 0;
-  /// The settled_time() of the collision that search_back() has found; absent: there is none.
-  virtual std::optional<double> previous_collision() const = 0;
+  /// The collision that search_back() has found; absent: there is none.
+  virtual std::optional<PreviousCollision> previous_collision() const = 0;
   /// As ScheduledRun::show.
   virtual void show(const View& view) = 0;
 

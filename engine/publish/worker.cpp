@@ -298,8 +298,9 @@ class EngineWork {
 
   // Ends the way to another time, wherever the run is.
   void stay() {
-    searches_ = shows_partners_ = false;
+    searches_ = false;
     going_to_.reset();
+    partners_there_.reset();
   }
 
   // A slice of the way to another time. Frames follow at its end.
@@ -313,15 +314,15 @@ class EngineWork {
       if (searches_) {
         if (!watched_->search_back(pauses)) return;
         searches_ = false;
-        const std::optional<double> collision = watched_->previous_collision();
-        shows_partners_ = collision.has_value();
-        go_to(collision.value_or(0.0));
+        const std::optional<PreviousCollision> collision = watched_->previous_collision();
+        if (collision) partners_there_ = collision->partners;
+        go_to(collision ? collision->time : 0.0);
       }
       if (!watched_->prepare(pauses)) return;
       while (time() < *going_to_ && !watched_->run_until(*going_to_, kNoLimit, kNoLimit, pauses)) {
         if (pauses()) return;
       }
-      if (shows_partners_) partners_ = watched_->partners();
+      if (partners_there_) partners_ = partners_there_;
       stay();
     });
     if (!possible) stay();
@@ -516,7 +517,7 @@ class EngineWork {
   std::optional<double> step_to_;
   bool searches_ = false;           // on the way to the last collision
   std::optional<double> going_to_;  // simulation time that the run is on its way to
-  bool shows_partners_ = false;     // at the end of this way, the pair that collided last
+  std::optional<std::array<std::uint32_t, 2>> partners_there_;  // that have just collided there
   std::optional<std::uint64_t> to_collision_;  // number of pair collisions at which to halt
   std::optional<std::array<std::uint32_t, 2>> partners_;
   std::uint64_t slice_ = 256;  // steps per slice, adapted while running

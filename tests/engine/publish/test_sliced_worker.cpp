@@ -190,7 +190,8 @@ TEST_CASE("SlicedWorker: a step back in a large gas is made in slices, to the bi
   const auto [partners, hash] =
       std::pair(engine.frames().front().partners, engine.frames().front().state_hash);
   engine.send(command::StepCollision{});
-  REQUIRE(work_until(engine, [&](const Frame& frame) { return frame.partners != partners; }));
+  REQUIRE(work_until(
+      engine, [&](const Frame& frame) { return frame.partners && frame.partners != partners; }));
   engine.send(command::StepBack{});
   int slices = 0;
   REQUIRE(work_until(engine, [&](const Frame& frame) {
