@@ -77,9 +77,9 @@ async function press(code, key, shift = false) {
   await browser.send('Input.dispatchKeyEvent', {type: 'keyUp', code, key, modifiers});
 }
 
-// The last status of a halted gas for which a condition holds. It has the hash of the state.
+// The last status, once the gas is halted and a condition holds. It has the hash of the state.
 const halted_where = (condition) => browser.until(
-    `log.map((line) => JSON.parse(line)).filter((e) => e.event === 'status' && e.hash && (${condition})).pop()`);
+    `log.map((line) => JSON.parse(line)).filter((e) => e.event === 'status').slice(-1).find((e) => e.hash && (${condition}))`);
 
 // Scrolls the left panel until a widget is in the page.
 async function scroll_to(widget) {
