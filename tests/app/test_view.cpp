@@ -118,7 +118,9 @@ TEST_CASE("Window: dragging the restitution cools the gas, undo takes it back") 
   const json cold = driver.wait_for(
       "status", told, [&](const json& status) { return status["temperature"] < 0.4 * hot; });
   CHECK(cold["restitution"].get<double>() == doctest::Approx(0.5).epsilon(0.05));
-  CHECK(cold["changes"] > 2);
+  // A busy engine skips laws that later ones replace, so its changes can be fewer.
+  CHECK(driver.events("set").size() > 2);
+  CHECK(cold["changes"] >= 1);
   driver.key("ctrl+z");
   driver.wait_for("undo", told);
   driver.wait_for("status", told, [](const json& status) { return status["restitution"] == 0.9; });
