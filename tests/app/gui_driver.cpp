@@ -151,6 +151,15 @@ std::vector<int> GuiDriver::pixel(int x, int y) const {
   return colour;
 }
 
+bool GuiDriver::corner_becomes(const std::vector<int>& colour) const {
+  for (int look = 0; look < 50; ++look) {
+    const std::vector<double> viewport = place("viewport");
+    if (pixel(static_cast<int>(viewport[0]) + 3, static_cast<int>(viewport[1]) + 3) == colour)
+      return true;
+  }
+  return false;
+}
+
 double GuiDriver::brightness(const std::string& widget) const {
   const std::vector<double> where = place(widget);
   const auto pixels = [&](int i) { return std::to_string(std::lround(where[i])); };
@@ -174,6 +183,25 @@ int GuiDriver::exit_code() const {
   const Outcome outcome =
       shell_.run("for i in $(seq 100); do [ -s code ] && cat code && exit; sleep 0.05; done");
   return outcome.out.empty() ? -1 : std::stoi(outcome.out);
+}
+
+json hash_of_run(const GuiDriver& driver, const std::string& scene, const json& status) {
+  char line[256];
+  std::snprintf(line, sizeof line,
+                "clatter measure %s --quiet --set measure.burn_in=0 --until %.17g", scene.c_str(),
+                status["time"].get<double>());
+  const Outcome outcome = driver.shell().run(line);
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  return json::parse(outcome.out)["state_hash"];
+}
+
+void check_saved_scene(const GuiDriver& driver) {
+  const std::size_t told = driver.told();
+  driver.key("ctrl+s");
+  const std::string scene = driver.wait_for("saved", told)["file"];
+  const json now = driver.wait_for("status", 0, halted);
+  CHECK(hash_of_run(driver, scene, now) == now["hash"]);
 }
 
 }  // namespace clatter

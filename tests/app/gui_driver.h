@@ -48,6 +48,9 @@ class GuiDriver {
   std::size_t told() const { return events().size(); }
   /// The colour of a screen pixel: red, green, blue.
   std::vector<int> pixel(int x, int y) const;
+  /// Whether the upper left corner of the viewport gets a colour within some pictures: the log is
+  /// ahead of the screen by a picture.
+  bool corner_becomes(const std::vector<int>& colour) const;
   /// The mean excess of brightness over the darkest pixel of a widget, 0..255.
   double brightness(const std::string& widget) const;
   /// The exit code of the program; -1 if it has not ended within some seconds.
@@ -70,5 +73,12 @@ class GuiDriver {
 inline bool halted(const nlohmann::json& status) {
   return !status["plays"] && status.contains("hash");
 }
+
+/// The hash of a run of a scene without a window, at the time of a status event.
+nlohmann::json hash_of_run(const GuiDriver& driver, const std::string& scene,
+                           const nlohmann::json& status);
+
+/// Saves the scene of a halted gas, and checks that a run of it has the same bits.
+void check_saved_scene(const GuiDriver& driver);
 
 }  // namespace clatter

@@ -1,0 +1,117 @@
+// The gallery of the window, by mouse and keys on a virtual display.
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <map>
+#include <sstream>
+#include <thread>
+
+#include "tests/app/gui_driver.h"
+
+namespace clatter {
+
+using nlohmann::json;
+
+TEST_SUITE_BEGIN("window");
+
+TEST_CASE("Window: a scene of the gallery is found by its name") {
+  const GuiDriver driver("");
+  // Scene files with the names of gallery scenes, and files of other content.
+  driver.shell().run("echo none | tee cooling cradle rough_cooling equilibrium");
+  std::size_t told = driver.told();
+  driver.key("g");
+  driver.wait_for("gallery", told);
+  driver.key("slash");
+  driver.tool("type --delay 100 cradle");
+  driver.tool("sleep 0.3");
+  driver.key("Return");
+  CHECK(driver.wait_for("open", told)["title"] == "Newton's cradle");
+  CHECK(driver.wait_for("status", told, [](const json& status) {
+    return status["run"] == 2;
+  })["temperature"] > 0.0);
+  told = driver.told();
+  driver.key("g");
+  driver.wait_for("gallery", told);
+  driver.click("gallery.cooling");
+  CHECK(driver.wait_for("open", told)["title"] == "Haff's cooling");
+}
+
+TEST_CASE("Window: G opens and closes the gallery, and the list of keys takes its place") {
+  const GuiDriver driver("");
+  const auto open = [](bool is) { return [=](const json& event) { return event["open"] == is; }; };
+  std::size_t told = driver.told();
+  driver.key("g");
+  driver.wait_for("gallery", told, open(true));
+  // Letters are no shortcuts there, because names are typed.
+  driver.key("r");
+  told = driver.told();
+  driver.key("g");
+  driver.wait_for("gallery", told, open(false));
+  CHECK(driver.wait_for("status")["run"] == 1);
+  told = driver.told();
+  driver.key("g");
+  driver.wait_for("gallery", told, open(true));
+  told = driver.told();
+  driver.key("F1");
+  driver.wait_for("gallery", told, open(false));
+}
+
+TEST_CASE("Window: arrows and Enter choose a scene of the gallery") {
+  const GuiDriver driver("");
+  std::size_t told = driver.told();
+  driver.key("g");
+  driver.wait_for("gallery", told);
+  // Pictures are slow while thumbnails are made, and the window sees a key only in a picture.
+  for (const std::string key : {"Down", "Down", "Down", "Up"}) {
+    driver.tool("keydown " + key + " sleep 0.2 keyup " + key + " sleep 0.2");
+  }
+  driver.key("Return");
+  const json third = driver.wait_for("open", told);
+  // Without the keys of the list, the third scene of it.
+  std::istringstream list(driver.shell().run("clatter scenes | sed -n 3p").out);
+  std::string name;
+  list >> name;
+  driver.shell().run("clatter check " + name + " >checked");
+  CHECK(says(driver.shell().read("checked"), third["title"].get<std::string>()));
+
+  // With a search that finds no scene, Enter opens none.
+  told = driver.told();
+  driver.key("g");
+  driver.wait_for("gallery", told);
+  driver.key("slash");
+  driver.tool("type --delay 100 zzz");
+  driver.place("gallery.none", told);
+  driver.key("Return");
+  for (int i = 0; i < 3; ++i) driver.key("BackSpace");
+  driver.tool("type --delay 100 cradle");
+  driver.key("Return");
+  CHECK(driver.wait_for("open", told)["title"] == "Newton's cradle");
+  CHECK(driver.events("open").size() == 3);
+}
+
+TEST_CASE("Window: the gallery has the order of the list of scenes") {
+  const GuiDriver driver("");
+  const std::size_t told = driver.told();
+  driver.key("g");
+  driver.wait_for("gallery", told);
+  std::map<std::string, double> tops;
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  for (const json& event : driver.events("widget")) {
+    const std::string name = event["name"];
+    if (name.starts_with("gallery.")) tops[name.substr(8)] = event["place"][1];
+  }
+  CHECK(tops.size() > 3);
+  std::istringstream list(driver.shell().run("clatter scenes").out);
+  double above = 0.0;
+  for (std::string line; std::getline(list, line);) {
+    const auto card = tops.find(line.substr(0, line.find(' ')));
+    if (card == tops.end()) continue;  // out of sight
+    CHECK(card->second > above);
+    above = card->second;
+  }
+}
+
+TEST_SUITE_END();
+
+}  // namespace clatter
