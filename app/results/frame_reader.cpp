@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <map>
 #include <string>
@@ -107,14 +108,15 @@ enum Quantities {
   kOmega = 9,
   kRadius = 12,
   kDiameter,
+  kMass,
   kId,
   kTime,
   kIgnored,
   kRow
 };
 constexpr std::array<const char*, kIgnored> kQuantityNames = {
-    "x",       "y",       "z",       "vx",      "vy",     "vz",       "image_x", "image_y",
-    "image_z", "omega_x", "omega_y", "omega_z", "radius", "diameter", "id",      "time"};
+    "x",       "y",       "z",       "vx",     "vy",       "vz",   "image_x", "image_y", "image_z",
+    "omega_x", "omega_y", "omega_z", "radius", "diameter", "mass", "id",      "time"};
 
 // A table of particles: the meaning of its columns.
 class ParticleTable {
@@ -169,6 +171,7 @@ class ParticleTable {
     frame.velocities.push_back(vector(kVx));
     if (has(kImage)) frame.images.push_back(vector(kImage));
     if (has(kOmega) || has(kOmega + 2)) frame.spins.push_back(vector(kOmega));
+    if (has(kMass)) frame.masses.push_back(row[kMass]);
   }
 
  private:
@@ -333,9 +336,9 @@ class XyzFrames {
   }
 
   ParticleTable read_columns() const {
-    static const std::map<std::string, int> kNames = {{"pos", kX},       {"velo", kVx},
-                                                      {"vel", kVx},      {"map_shift", kImage},
-                                                      {"omega", kOmega}, {"radius", kRadius}};
+    static const std::map<std::string, int> kNames = {
+        {"pos", kX},       {"velo", kVx},       {"vel", kVx},   {"map_shift", kImage},
+        {"omega", kOmega}, {"radius", kRadius}, {"mass", kMass}};
     std::string rest = value_of("Properties") + ':';
     std::vector<std::string> parts;
     for (std::size_t end = 0; (end = rest.find(':')) != rest.npos; rest.erase(0, end + 1)) {
@@ -345,7 +348,7 @@ class XyzFrames {
     for (std::size_t k = 0; k + 2 < parts.size(); k += 3) {
       const auto name = kNames.find(parts[k]);
       const auto width = whole_number<int>(parts[k + 2]);
-      const int wanted = name == kNames.end() ? 0 : name->second == kRadius ? 1 : 3;
+      const int wanted = name == kNames.end() ? 0 : name->second >= kRadius ? 1 : 3;
       if (!width || *width < 1 || *width > 100 || (wanted > 0 && *width != wanted)) {
         lines_.refuse("the property " + in_quotes(parts[k].substr(0, 40)) + " has a wrong width",
                       "give vectors three columns");
@@ -442,7 +445,8 @@ class DumpFrames {
                                                            {"omegay", kOmega + 1},
                                                            {"omegaz", kOmega + 2},
                                                            {"radius", kRadius},
-                                                           {"diameter", kDiameter}};
+                                                           {"diameter", kDiameter},
+                                                           {"mass", kMass}};
     std::vector<int> columns;
     const Words words = lines_.words();
     for (std::size_t k = 2; k < words.size(); ++k) {
@@ -543,6 +547,7 @@ ParticleFrame frame_of_gsd(const std::filesystem::path& path, std::optional<std:
   frame.velocities = vectors("log/particles/velocity");
   frame.spins = vectors("log/particles/angular_velocity");
   frame.images = vectors("particles/image");
+  frame.masses = reader.numbers("particles/mass", place, particles);
   if (frame.velocities.empty()) frame.velocities = vectors("particles/velocity");
   if (frame.positions.empty()) {
     frame.positions = vectors("particles/position");
@@ -573,6 +578,7 @@ ParticleFrame frame_of_h5md(const std::filesystem::path& path, std::optional<std
   if (components == 3 && reader.has("angular_velocity")) {
     frame.spins = vectors_of(reader.vectors("angular_velocity", place), components);
   }
+  if (reader.has("mass")) frame.masses = reader.numbers("mass", place);
   if (reader.has("diameter")) require_unit_diameters(path, reader.numbers("diameter", place));
   frame.dimension = is_flat(frame) ? 2 : 3;
   const std::vector<double> lengths = reader.box(place);
@@ -614,6 +620,11 @@ void require_sound(const ParticleFrame& frame, const std::filesystem::path& path
   require_finite(frame.positions, "position");
   require_finite(frame.velocities, "velocity");
   require_finite(frame.spins, "angular velocity");
+  const auto other = std::ranges::adjacent_find(frame.masses, std::not_equal_to());
+  if (other != frame.masses.end()) {
+    refuse("masses differ: " + number_text(*other) + " and " + number_text(*(other + 1)),
+           "give particles of the same mass");
+  }
   if (!std::isfinite(frame.time)) refuse("the time is not finite", "give another frame");
   for (int axis = 0; frame.box && axis < frame.dimension; ++axis) {
     const double length = frame.box->lengths[axis];

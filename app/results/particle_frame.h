@@ -25,6 +25,7 @@ struct ParticleFrame {
   std::vector<Vector> velocities;  ///< [N]
   std::vector<Vector> spins;       ///< [N] angular velocities; empty: none
   std::vector<Vector> images;      ///< [N] periodic images
+  std::vector<double> masses;      ///< [N] equal; empty: the file has none
 };
 
 }  // namespace clatter

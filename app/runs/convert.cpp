@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <utility>
 
 #include "app/results/frame_reader.h"
@@ -13,6 +12,7 @@
 #include "app/runs/picture_scene.h"
 #include "app/system/exit_code.h"
 #include "app/system/interrupt.h"
+#include "app/system/missing_newline.h"
 #include "app/system/outputs.h"
 #include "engine/checkpoint/checkpoint.h"
 #include "engine/dimension.h"
@@ -63,17 +63,6 @@ ParticleFrame frame_of_checkpoint(const std::string& file) {
 
 bool is_text(TrajectoryFormat format) {
   return format != TrajectoryFormat::Gsd && format != TrajectoryFormat::H5md;
-}
-
-// A text file that was cut off may end within a number, which then looks complete.
-void tell_missing_newline(const std::string& file) {
-  std::ifstream input(file, std::ios::binary | std::ios::ate);
-  if (input.tellg() <= 0) return;
-  input.seekg(-1, std::ios::end);
-  if (input.get() == '\n') return;
-  std::fprintf(stderr,
-               "note: %s ends without a newline; if it was cut off, its last number is wrong\n",
-               file.c_str());
 }
 
 ParticleFrame frame_of_file(const ConvertOptions& options) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/runs/picture_scene.h"
+#include "app/system/missing_newline.h"
 #include "engine/checkpoint/checkpoint.h"
 #include "engine/error.h"
 
@@ -28,7 +29,11 @@ Scene load(const CommonOptions& options, StartFile start_file) {
     }
     overrides.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
   }
-  return load_any_scene(options.scene, overrides, start_file);
+  Scene scene = load_any_scene(options.scene, overrides, start_file);
+  if (start_file == StartFile::Read && !options.quiet) {
+    tell_missing_newline(scene.particles.start.file);
+  }
+  return scene;
 }
 
 std::vector<std::filesystem::path> inputs_of(const CommonOptions& options,

@@ -38,7 +38,8 @@ struct CheckpointOptions {
   StartFile start_file() const { return resume.empty() ? StartFile::Read : StartFile::Skip; }
 };
 
-/// The scene with the settings of the flags. Throws UserError.
+/// The scene with the settings of the flags. Prints a note if its start state seems cut off. Throws
+/// UserError.
 Scene load(const CommonOptions& options, StartFile start_file = StartFile::Read);
 
 /// The files that a command reads and must not overwrite: scene, start state and resumed

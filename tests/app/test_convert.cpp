@@ -121,7 +121,9 @@ TEST_CASE("Convert: files of other programs with the same columns") {
   CHECK(says(shell.read("a.xyz"), "pbc=\"T F F\" Time=2.5 "));
   CHECK(says(shell.read("a.xyz"), "\nX 0.5 4 0 0.5 0.25 0 1 0 0 0.5\n"));
   // HOOMD-blue and H5MD without the exact numbers, by other writers.
-  const Outcome written = shell.run(CLATTER_READERS "write_trajectories.py o.gsd o.h5md huge.h5md");
+  const Outcome written = shell.run(CLATTER_READERS
+                                    "write_trajectories.py o.gsd o.h5md heavy.gsd heavy.h5md "
+                                    "huge.h5md");
   CAPTURE(written.err);
   REQUIRE(written.code == 0);
   const std::string want = "x,y,z,vx,vy,vz\n0.5,3.5,2.25,1,0,0.5\n5,1.5,2.5,0,2,0\n";
@@ -134,11 +136,15 @@ TEST_CASE("Convert: files of other programs with the same columns") {
     REQUIRE(shell.run("clatter convert " + file + " o.xyz").code == 0);
     CHECK(says(shell.read("o.xyz"), file == "o.gsd" ? "pbc=\"T T T\"" : "pbc=\"T F F\" Time=0.5"));
   }
+  for (const std::string file : {"heavy.gsd", "heavy.h5md"}) {
+    check_refused(shell, "clatter convert " + file + " o.csv",
+                  {file + ": masses differ: 1 and 2.5; give particles of the same mass"});
+  }
   check_refused(shell, "clatter convert huge.h5md o.csv",
                 {"huge.h5md: the quantity \"position\" is too large"});
 }
 
-TEST_CASE("Convert: a text file without its last newline is read with a note") {
+TEST_CASE("Convert, measure: a text file without its last newline is read with a note") {
   const Shell shell;
   shell.write("s.csv", "x,y,vx,vy\n2,2,1,0.25\n");
   shell.write("cut.csv", "x,y,vx,vy\n2,2,1,0.25");
@@ -146,6 +152,16 @@ TEST_CASE("Convert: a text file without its last newline is read with a note") {
   const Outcome cut = shell.run("clatter convert cut.csv b.csv && cmp a.csv b.csv");
   CHECK(cut.code == 0);
   CHECK(says(cut.err, "note: cut.csv ends without a newline"));
+  // As a start state of a scene.
+  for (const std::string file : {"s.csv", "cut.csv"}) {
+    shell.write("s.toml",
+                "box.size = [8, 6]\nparticles.start.layout = \"file\"\nparticles.start.file = '" +
+                    file + "'\n");
+    const Outcome run = shell.run("clatter measure s.toml --until 1 --progress none");
+    CHECK(run.code == 0);
+    CHECK(says(run.err, "cut.csv ends without a newline") == (file == "cut.csv"));
+  }
+  CHECK(shell.run("clatter measure s.toml --until 1 --quiet").err.empty());
 }
 
 TEST_CASE("Convert: malformed text files are refused with the line") {
@@ -229,6 +245,14 @@ TEST_CASE("Convert: no quantity is lost, doubled or invented") {
   refused("a.dump", dump("x x y vx vy", "1 1 2 0 0"), "a.dump:9: two columns are x");
   refused("a.dump", dump("x y vx vy diameter", "1 2 0 0 2"),
           "a.dump:10: the diameter is 2 instead of 1");
+  std::string masses = kFrame;
+  masses.replace(masses.find("radius"), 6, "mass");
+  shell.write("same.xyz", masses);
+  CHECK(shell.run("clatter convert same.xyz a.csv").code == 0);
+  masses.replace(masses.rfind("0.5"), 3, "0.6");
+  refused("a.xyz", masses, "a.xyz: masses differ: 0.5 and 0.6; give particles of the same mass");
+  std::string two = dump("mass x y vx vy", "1 1 2 0 0\n3 4 5 0 0");
+  refused("a.dump", two.replace(two.find("\n1\n"), 3, "\n2\n"), "a.dump: masses differ: 1 and 3");
   // Disks need no velocity along z.
   shell.write("a.dump", dump("x y z vx vy diameter", "1 2 0 3 4 1"));
   REQUIRE(shell.run("clatter convert a.dump a.csv").code == 0);

@@ -1,5 +1,5 @@
-"""Writes two spheres as a GSD file, by the package gsd, and as H5MD, by h5py. A second H5MD
-file claims more spheres than it has."""
+"""Writes two spheres as a GSD file, by the package gsd, and as H5MD, by h5py. Two further files
+have spheres of different masses. A last H5MD file claims more spheres than it has."""
 
 import sys
 
@@ -10,7 +10,7 @@ import numpy
 position = numpy.array([[0.5, 3.5, 2.25], [5, 1.5, 2.5]])
 velocity = numpy.array([[1, 0, 0.5], [0, 2, 0]])
 box = numpy.array([6.0, 5.0, 4.0])
-gsd_file, h5md_file, huge_file = sys.argv[1:]
+gsd_file, h5md_file, heavy_gsd_file, heavy_h5md_file, huge_file = sys.argv[1:]
 
 frame = gsd.hoomd.Snapshot()
 frame.configuration.box = [*box, 0, 0, 0]
@@ -21,8 +21,12 @@ with gsd.hoomd.open(gsd_file, "wb") as file:
     file.append(frame)
     frame.configuration.step = 7
     file.append(frame)
+frame.particles.mass = [1, 2.5]
+with gsd.hoomd.open(heavy_gsd_file, "wb") as file:
+    file.append(frame)
 
-with h5py.File(h5md_file, "w") as file:
+
+def write_h5md(file):
     group = file.create_group("particles/gas/box")
     group.attrs["dimension"] = 3
     group.attrs["boundary"] = numpy.array([b"periodic", b"none", b"none"])
@@ -32,6 +36,13 @@ with h5py.File(h5md_file, "w") as file:
         element["value"] = numpy.array([vectors, vectors])
         element["step"] = 10
         element["time"] = 0.5
+
+
+with h5py.File(h5md_file, "w") as file:
+    write_h5md(file)
+with h5py.File(heavy_h5md_file, "w") as file:
+    write_h5md(file)
+    file["particles/gas/mass"] = numpy.array([1, 2.5])
 
 with h5py.File(huge_file, "w") as file:
     file.create_dataset("particles/gas/position/value", (1, 200_000_000, 3))
