@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <new>
 #include <vector>
 
@@ -39,5 +40,14 @@ struct LargeArrayAllocator {
 /// An array that may be large and is visited in random order.
 template <typename T>
 using LargeArray = std::vector<T, LargeArrayAllocator<T>>;
+
+/// Appends an element to an array of unknown final size, and returns its index. The memory grows by
+/// an eighth, which wastes less than doubling.
+template <typename T>
+std::uint32_t append_sparingly(LargeArray<T>& array) {
+  if (array.size() == array.capacity()) array.reserve(array.size() + array.size() / 8 + 16);
+  array.emplace_back();
+  return static_cast<std::uint32_t>(array.size() - 1);
+}
 
 }  // namespace clatter

@@ -44,7 +44,8 @@ struct NearListView {
         next(of.next) {}
 };
 
-/// The lists that continue full lists.
+/// The lists that continue full lists of cells. They fill one cache line: lists of spheres continue
+/// often, by a few neighbours.
 template <int D, class List>
 class Continuations {
  public:
@@ -66,59 +67,74 @@ class Continuations {
   void clear(List& list);
 
  private:
+  static constexpr std::uint32_t kNone = List::kNone;
+  struct alignas(64) Continued : NearList<14> {};
+
+  template <typename VisitList>
+  void visit_lists(const List& first, const VisitList& visit) const;
+  template <class AnyList>
+  static void append(AnyList& list, Neighbour neighbour);
   void take_off_chain(List& list, Neighbour neighbour);
   std::uint32_t new_list();
 
-  LargeArray<List> lists_;
+  LargeArray<Continued> lists_;
   std::vector<std::uint32_t> spare_;  // unused elements of lists_
 };
+
+// Calls visit(list) for a list and its continuations.
+template <int D, class List>
+template <typename VisitList>
+void Continuations<D, List>::visit_lists(const List& first, const VisitList& visit) const {
+  visit(first);
+  for (std::uint32_t at = first.next; at != kNone; at = lists_[at].next) visit(lists_[at]);
+}
 
 template <int D, class List>
 template <typename Visit>
 void Continuations<D, List>::visit(const List& first, const Visit& visit) const {
-  for (const List* list = &first;; list = &lists_[list->next]) {
-    for (std::uint32_t k = 0; k < list->count; ++k) {
+  visit_lists(first, [&](const auto& list) {
+    for (std::uint32_t k = 0; k < list.count; ++k) {
       Vec<D> wrap;
-      for (int axis = 0; axis < D; ++axis) wrap[axis] = wrap_of<D>(list->neighbours[k], axis);
-      visit(particle_of<D>(list->neighbours[k]), wrap);
+      for (int axis = 0; axis < D; ++axis) wrap[axis] = wrap_of<D>(list.neighbours[k], axis);
+      visit(particle_of<D>(list.neighbours[k]), wrap);
     }
-    if (list->next == List::kNone) return;
-  }
+  });
 }
 
 template <int D, class List>
 void Continuations<D, List>::append_to(std::vector<Neighbour>& neighbours,
                                        const List& first) const {
-  for (const List* list = &first;; list = &lists_[list->next]) {
-    const auto begin = list->neighbours.begin();
-    neighbours.insert(neighbours.end(), begin, begin + list->count);
-    if (list->next == List::kNone) return;
-  }
+  visit_lists(first, [&](const auto& list) {
+    const auto begin = list.neighbours.begin();
+    neighbours.insert(neighbours.end(), begin, begin + list.count);
+  });
 }
 
 template <int D, class List>
 std::size_t Continuations<D, List>::count(const List& first) const {
-  std::size_t count = first.count;
-  for (std::uint32_t at = first.next; at != List::kNone; at = lists_[at].next) {
-    count += lists_[at].count;
-  }
+  std::size_t count = 0;
+  visit_lists(first, [&](const auto& list) { count += list.count; });
   return count;
 }
 
 template <int D, class List>
+template <class AnyList>
+void Continuations<D, List>::append(AnyList& list, Neighbour neighbour) {
+  list.neighbours[list.count++] = neighbour;
+  list.wraps = list.wraps || neighbour != particle_of<D>(neighbour);
+}
+
+template <int D, class List>
 void Continuations<D, List>::put_on(List& first, Neighbour neighbour) {
-  List* list = &first;
-  while (list->count == list->neighbours.size()) {
-    if (list->next == List::kNone) {
-      const std::ptrdiff_t place = list == &first ? -1 : list - lists_.data();
-      const std::uint32_t added = new_list();  // may move lists_
-      list = place < 0 ? &first : lists_.data() + place;
-      list->next = added;
-    }
-    list = &lists_[list->next];
+  const auto full = [](const auto& list) { return list.count == list.neighbours.size(); };
+  if (!full(first)) return append(first, neighbour);
+  std::uint32_t last = kNone, at = first.next;
+  for (; at != kNone && full(lists_[at]); at = lists_[at].next) last = at;
+  if (at == kNone) {
+    at = new_list();
+    (last == kNone ? first.next : lists_[last].next) = at;
   }
-  list->neighbours[list->count++] = neighbour;
-  list->wraps = list->wraps || neighbour != particle_of<D>(neighbour);
+  append(lists_[at], neighbour);
 }
 
 // Index of a neighbour in a list; 0 if it is not there. Compares all entries at once, because a
@@ -141,7 +157,7 @@ std::uint32_t place_of(Neighbour neighbour, const NearList<kCapacity>& list) {
 
 template <int D, class List>
 void Continuations<D, List>::take_off(List& list, Neighbour neighbour) {
-  if (list.next != List::kNone) [[unlikely]]
+  if (list.next != kNone) [[unlikely]]
     return take_off_chain(list, neighbour);
   Neighbour& last = list.neighbours[--list.count];
   list.neighbours[place_of(neighbour, list)] = last;
@@ -150,31 +166,30 @@ void Continuations<D, List>::take_off(List& list, Neighbour neighbour) {
 
 template <int D, class List>
 void Continuations<D, List>::take_off_chain(List& first, Neighbour neighbour) {
-  Neighbour* place = nullptr;
-  List* holder = nullptr;
-  List* list = &first;
-  List* before_last = nullptr;
-  for (;; list = &lists_[list->next]) {
-    Neighbour& found = list->neighbours[place_of(neighbour, *list)];
+  Neighbour* place = &first.neighbours[place_of(neighbour, first)];
+  bool* wraps = &first.wraps;
+  std::uint32_t before_last = kNone, at = first.next;
+  for (;; before_last = at, at = lists_[at].next) {
+    Neighbour& found = lists_[at].neighbours[place_of(neighbour, lists_[at])];
     if (found == neighbour) {
       place = &found;
-      holder = list;
+      wraps = &lists_[at].wraps;
     }
-    if (list->next == List::kNone) break;
-    before_last = list;
+    if (lists_[at].next == kNone) break;
   }
-  Neighbour& last = list->neighbours[--list->count];
+  Continued& list = lists_[at];
+  Neighbour& last = list.neighbours[--list.count];
   *place = last;
-  holder->wraps = holder->wraps || list->wraps;
+  *wraps = *wraps || list.wraps;
   last = kNobody;
-  if (list->count > 0) return;
-  spare_.push_back(before_last->next);
-  before_last->next = List::kNone;
+  if (list.count > 0) return;
+  spare_.push_back(at);
+  (before_last == kNone ? first.next : lists_[before_last].next) = kNone;
 }
 
 template <int D, class List>
 void Continuations<D, List>::clear(List& list) {
-  for (std::uint32_t next = list.next; next != List::kNone; next = lists_[next].next) {
+  for (std::uint32_t next = list.next; next != kNone; next = lists_[next].next) {
     spare_.push_back(next);
   }
   list = List{};
@@ -182,13 +197,10 @@ void Continuations<D, List>::clear(List& list) {
 
 template <int D, class List>
 std::uint32_t Continuations<D, List>::new_list() {
-  if (spare_.empty()) {
-    lists_.emplace_back();
-    return static_cast<std::uint32_t>(lists_.size() - 1);
-  }
+  if (spare_.empty()) return append_sparingly(lists_);
   const std::uint32_t list = spare_.back();
   spare_.pop_back();
-  lists_[list] = List{};
+  lists_[list] = Continued{};
   return list;
 }
 

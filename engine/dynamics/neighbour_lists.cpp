@@ -89,10 +89,7 @@ std::uint32_t NeighbourLists<D>::first_block(const IntVec<D>& cell) const {
 
 template <int D>
 std::uint32_t NeighbourLists<D>::new_block() {
-  if (spare_blocks_.empty()) {
-    blocks_.emplace_back();
-    return static_cast<std::uint32_t>(blocks_.size() - 1);
-  }
+  if (spare_blocks_.empty()) return append_sparingly(blocks_);
   const std::uint32_t block = spare_blocks_.back();
   spare_blocks_.pop_back();
   return block;
