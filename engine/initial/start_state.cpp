@@ -82,20 +82,20 @@ struct BondOrders {
   double square = 0.0;      // m = 4
   double triangular = 0.0;  // m = 6
 };
-static BondOrders bond_orders(const Model<2>& model, const State<2>& state) {
+static BondOrders bond_orders(const Model<2>& model, const std::vector<Vec2>& positions) {
   constexpr double kReach = 1.5;
   Model<2> reach = model;
   reach.diameter = kReach * model.diameter;
-  CellGrid<2> grid(reach, static_cast<double>(state.positions.size()));
-  for (std::uint32_t i = 0; i < state.positions.size(); ++i) {
-    grid.insert(i, grid.cell_at(state.positions[i]));
+  CellGrid<2> grid(reach, static_cast<double>(positions.size()));
+  for (std::uint32_t i = 0; i < positions.size(); ++i) {
+    grid.insert(i, grid.cell_at(positions[i]));
   }
   std::complex<double> fourth = 0.0, sixth = 0.0;  // sums of these powers of exp(i theta)
   double bonds = 0.0;
-  for (std::uint32_t i = 0; i < state.positions.size(); ++i) {
-    const Vec2& r = state.positions[i];
+  for (std::uint32_t i = 0; i < positions.size(); ++i) {
+    const Vec2& r = positions[i];
     grid.visit(grid.cell_at(r), [&](std::uint32_t j, const Vec2& wrap) {
-      const Vec2 x = state.positions[j] - r + wrap.cwiseProduct(model.box);
+      const Vec2 x = positions[j] - r + wrap.cwiseProduct(model.box);
       // Both directions of a pair have the same even powers.
       if (j <= i || x.norm() > reach.diameter) return;
       const std::complex<double> unit(x.x() / x.norm(), x.y() / x.norm());
@@ -110,17 +110,18 @@ static BondOrders bond_orders(const Model<2>& model, const State<2>& state) {
 }
 
 // Whether the lattice has melted. For disks the criterion is the bond order of the square and the
-// triangular lattice. For spheres it is a root mean square displacement of one diameter.
-static bool is_fluid(const Model<2>& model, const State<2>& state, const std::vector<Vec<2>>&) {
-  const double finite = 3.0 / std::sqrt(static_cast<double>(state.positions.size()));
-  const BondOrders orders = bond_orders(model, state);
+// triangular lattice. For spheres it is a root mean square displacement of one diameter; `sites`
+// are those of the first spheres.
+static bool is_fluid(const Simulation<2>& gas, const std::vector<Vec2>&) {
+  const double finite = 3.0 / std::sqrt(static_cast<double>(gas.particles().size()));
+  const BondOrders orders = bond_orders(gas.model(), gas.positions());
   return orders.square < std::max(0.1, finite) && orders.triangular < std::max(0.3, finite);
 }
-static bool is_fluid(const Model<3>& model, const State<3>& state,
-                     const std::vector<Vec<3>>& sites) {
+static bool is_fluid(const Simulation<3>& gas, const std::vector<Vec<3>>& sites) {
+  const Model<3>& model = gas.model();
   double squares = 0.0;
   for (std::size_t i = 0; i < sites.size(); ++i) {
-    Vec<3> way = state.positions[i] - sites[i];
+    Vec<3> way = gas.particles()[i].flight.at(gas.base_time(), model.gravity) - sites[i];
     for (int axis = 0; axis < 3; ++axis) {
       if (!model.periodic(axis)) continue;
       way[axis] -= model.box[axis] * std::round(way[axis] / model.box[axis]);
@@ -141,7 +142,10 @@ class Melting {
       : model_(elastic(room)),
         sites_(std::move(sites)),
         gas_(typename Simulation<D>::InParts(), model_,
-             {sites_, gaussian_velocities<D>(sites_.size(), 1.0, ~seed, stop)}) {}
+             {sites_, gaussian_velocities<D>(sites_.size(), 1.0, ~seed, stop)}) {
+    sites_.resize(std::min(sites_.size(), kSites));
+    sites_.shrink_to_fit();
+  }
 
   // Returns false at a request to pause.
   bool advance(const StopRequest& pause) {
@@ -150,7 +154,7 @@ class Melting {
       const std::uint64_t most = collisions_after(round_);
       const bool arrived = gas_.run_until(kLongestRound * round_, most, kNoLimit, pause);
       if (!arrived && gas_.counts().collisions() < most) return false;
-      if (is_fluid(model_, gas_.state(), sites_)) break;
+      if (is_fluid(gas_, sites_)) break;
     }
     return true;
   }
@@ -164,6 +168,8 @@ class Melting {
   std::vector<Vec<D>> positions() const { return gas_.positions(); }
 
  private:
+  // Their mean square displacement is known to a percent.
+  static constexpr std::size_t kSites = 10'000;
   static constexpr int kRounds = 10;
   static constexpr std::uint64_t kCollisionsPerRound = 20;  // per particle
   // Longest time of a round. At T = 1 in a dense gas a round takes less than 10; a lone particle
@@ -181,11 +187,11 @@ class Melting {
   }
 
   std::uint64_t collisions_after(int round) const {
-    return kCollisionsPerRound * static_cast<std::uint64_t>(round) * sites_.size() / 2;
+    return kCollisionsPerRound * static_cast<std::uint64_t>(round) * gas_.particles().size() / 2;
   }
 
   Model<D> model_;
-  std::vector<Vec<D>> sites_;
+  std::vector<Vec<D>> sites_;  // of the first kSites particles
   Simulation<D> gas_;
   int round_ = 1;
 };
@@ -251,18 +257,19 @@ class StartWork : public StartMaker::Work {
       return_unused_memory();
     }
     if (is_complete()) return true;
-    if (sites_.empty()) {
-      choose_sites();
-      if (is_complete()) return true;
-      if (pause.made()) return false;
-    }
     if (!melting_) {
-      melting_.emplace(room_, sites_, seed_, stop_);
+      if (sites_.empty()) {
+        choose_sites();
+        if (is_complete()) return true;
+        if (pause.made()) return false;
+      }
+      melting_.emplace(room_, std::move(sites_), seed_, stop_);
       if (pause.made()) return false;
     }
     if (!melting_->advance(pause)) return false;
     positions_ = melting_->positions();
     melting_.reset();
+    return_unused_memory();
     return true;
   }
 
@@ -320,7 +327,7 @@ class StartWork : public StartMaker::Work {
   Random random_;
   std::optional<RandomInsertion<D>> insertion_;  // the present part of the work, or none
   std::optional<Melting<D>> melting_;            // the same
-  std::vector<Vec<D>> sites_;                    // of the lattice that melts
+  std::vector<Vec<D>> sites_;                    // of the lattice that will melt
   std::vector<Vec<D>> positions_;                // of the complete work
 };
 
