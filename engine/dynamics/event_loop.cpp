@@ -7,6 +7,7 @@
 
 #include "engine/dynamics/prefetch.h"
 #include "engine/error.h"
+#include "engine/free_memory.h"
 
 // The loop and its calendar; event_loop_events.cpp has the effects of events on particles.
 
@@ -50,7 +51,7 @@ static bool may_collapse(const Model<D>& model) {
   return may;
 }
 
-// The particles of a saved run, with the data that the model needs. `saved` then has no flights:
+// The particles of a saved run, with the data that the model needs. `saved` then has no particles:
 // their memory is free before lists and calendar take theirs.
 template <int D>
 static ParticleStates<D> states_of(const Model<D>& model, RunState<D>& saved) {
@@ -61,7 +62,10 @@ static ParticleStates<D> states_of(const Model<D>& model, RunState<D>& saved) {
                         {saved.remainders.begin(), saved.remainders.end()}};
   for (std::size_t i = 0; i < count; ++i) gas.particles.flight(i) = saved.flights[i];
   gas.fit(model, count);
-  saved.flights = {};
+  free_memory(saved.flights);
+  free_memory(saved.spins);
+  free_memory(saved.last_collisions);
+  free_memory(saved.remainders);
   return gas;
 }
 
@@ -240,8 +244,8 @@ void EventLoop<D>::note_all_strays() {
 
 template <int D>
 void EventLoop<D>::drop_plans() {
-  plans_ = {};
-  near_.reset(whole_box<D>(model_), 1.0);
+  free_memory(plans_);
+  near_ = Neighbourhood<D>(model_, 1.0);
   std::vector<Event> none;
   queue_.rebuild(none);
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/free_memory.h"
+
 namespace clatter {
 
 void EventQueue::rebuild(std::vector<Event>& events) {
@@ -23,7 +25,7 @@ void EventQueue::spread(std::vector<Event>& events, std::size_t first) {
   chunks_.clear();
   spare_ = nullptr;
   later_.clear();
-  arrived_ = {};  // also frees the capacity that a burst took
+  free_memory(arrived_);  // a burst may have taken much
   bucket_ = 0;
   if (events.empty()) return;
 

@@ -19,11 +19,11 @@ namespace clatter {
 
 // Bytes of a particle, its plan, one list of near particles, and two entries of the event queue
 // with room to grow. In clusters there may be up to four cells per particle and continued lists
-// (CellGrid::fit), which are not counted. Lists of dense spheres need about 40 bytes more.
+// (CellGrid::fit), which are not counted. Lists of dense spheres need about 30 bytes more.
 template <int D>
 static constexpr double kBytesPerParticle = sizeof(Particle<D>) + sizeof(Plan<D>) +
                                             sizeof(typename CellGrid<D>::List) + 4 * sizeof(Event) +
-                                            (D == 3 ? 40 : 0);
+                                            (D == 3 ? 30 : 0);
 
 template <int D>
 static GasMemory memory_of(const Scene& scene) {

@@ -1,15 +1,32 @@
 #include "tests/engine/support/allocations.h"
 
+#include <malloc.h>
+
 #include <atomic>
 #include <cstdlib>
 #include <new>
 
 static std::atomic<std::size_t> allocated = 0;
+static std::atomic<std::size_t> in_use = 0;
+static std::atomic<std::size_t> most_in_use = 0;
+
+static void count(void* memory, std::size_t bytes) {
+  allocated += bytes;
+  const std::size_t now = in_use += malloc_usable_size(memory);
+  std::size_t most = most_in_use;
+  while (most < now && !most_in_use.compare_exchange_weak(most, now)) {
+  }
+}
 
 static void* counted(void* memory, std::size_t bytes) {
   if (!memory) throw std::bad_alloc();
-  allocated += bytes;
+  count(memory, bytes);
   return memory;
+}
+
+static void give_back(void* memory) {
+  in_use -= malloc_usable_size(memory);
+  std::free(memory);
 }
 
 void* operator new(std::size_t bytes) {
@@ -25,26 +42,38 @@ void* operator new(std::size_t bytes, std::align_val_t alignment) {
 // std::stable_sort allocates its buffer here. The usual operator delete frees it.
 void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
   void* memory = std::malloc(bytes);
-  if (memory) allocated += bytes;
+  if (memory) count(memory, bytes);
   return memory;
 }
 
 void operator delete(void* memory) noexcept {
-  std::free(memory);
+  give_back(memory);
 }
 
 void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
+  give_back(memory);
 }
 
 void operator delete(void* memory, std::align_val_t) noexcept {
-  std::free(memory);
+  give_back(memory);
 }
 
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  std::free(memory);
+  give_back(memory);
 }
 
 std::size_t clatter::testing::allocated_bytes() {
   return allocated;
+}
+
+std::size_t clatter::testing::bytes_in_use() {
+  return in_use;
+}
+
+std::size_t clatter::testing::most_bytes_in_use() {
+  return most_in_use;
+}
+
+void clatter::testing::restart_most_bytes_in_use() {
+  most_in_use = in_use.load();
 }
