@@ -172,8 +172,9 @@ bool CellGrid<D>::fit(double particles, double near) {
   const double others = near - particles;  // a particle is near itself
   const double cells = counts_.template cast<double>().prod();
   const double crowding = others * cells / (particles * particles * kCellsAbout);
-  const bool fine = crowding > (cells_ > particles ? kEven : kCrowded);
-  const double wanted = particles * (fine ? std::min(crowding / kWanted, kMax) : 1.0);
+  const double even = kCellsPerParticle * particles;
+  const bool fine = crowding > (cells_ > even ? kEven : kCrowded);
+  const double wanted = fine ? particles * std::min(crowding / kWanted, kMax) : even;
   if (std::max(wanted, cells_) < kWorthwhile * std::min(wanted, cells_)) return false;
   *this = CellGrid(subdomain_, diameter_, wanted);
   return true;

@@ -17,13 +17,15 @@
 
 namespace clatter {
 
-// Bytes of a particle, its plan, one list of near particles, and two entries of the event queue
-// with room to grow. In clusters there may be up to four cells per particle and continued lists
-// (CellGrid::fit), which are not counted. Lists of dense spheres need about 30 bytes more.
+// Bytes of a particle, its plan, its share of the lists of cells, and two entries of the event
+// queue with room to grow. In clusters there may be up to four cells per particle and continued
+// lists (CellGrid::fit), which are not counted. Lists of dense spheres take as much as those of
+// cells.
 template <int D>
-static constexpr double kBytesPerParticle = sizeof(Particle<D>) + sizeof(Plan<D>) +
-                                            sizeof(typename CellGrid<D>::List) + 4 * sizeof(Event) +
-                                            (D == 3 ? 30 : 0);
+static constexpr double kBytesPerParticle =
+    sizeof(Particle<D>) +
+    sizeof(Plan<D>) + CellGrid<D>::kCellsPerParticle * sizeof(typename CellGrid<D>::List) +
+    4 * sizeof(Event);
 
 template <int D>
 static GasMemory memory_of(const Scene& scene) {

@@ -20,14 +20,15 @@ class Neighbourhood {
  public:
   /// A neighbourhood for a number of particles.
   Neighbourhood(const Model<D>& model, double particles)
-      : grid_(model, has_lists(model, particles) ? 1.0 : particles) {
+      : grid_(model,
+              has_lists(model, particles) ? 1.0 : CellGrid<D>::kCellsPerParticle * particles) {
     if (has_lists(model, particles)) lists_.emplace(model, particles);
   }
 
   /// Empties the neighbourhood and lays cells for a number of particles over a subdomain.
   void reset(const Subdomain<D>& subdomain, double particles) {
     lists_.reset();
-    grid_.reset(subdomain, particles);
+    grid_.reset(subdomain, CellGrid<D>::kCellsPerParticle * particles);
   }
 
   /// The largest and the least capacity of a list. Lists of particles exist in 3D only.
@@ -142,8 +143,8 @@ class Neighbourhood {
   }
 
  private:
-  // Measured for N = 4000: from this volume fraction on, lists of particles are faster.
-  static constexpr double kDense = 0.4;
+  // Measured for N = 10,976: from this volume fraction on, lists of particles are faster.
+  static constexpr double kDense = 0.45;
   // Whether the particles have lists of their own.
   static bool has_lists(const Model<D>& model, double particles) {
     for (int axis = 0; axis < D; ++axis) {

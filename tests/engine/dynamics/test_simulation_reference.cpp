@@ -7,6 +7,9 @@
 
 #include "engine/dynamics/simulation.h"
 #include "engine/dynamics/state_hash.h"
+#include "engine/initial/start_state.h"
+#include "engine/physics/theory.h"
+#include "engine/scene/scene_file.h"
 #include "tests/engine/support/gas.h"
 #include "tests/engine/support/reference.h"
 
@@ -166,10 +169,19 @@ void compare_shortly(const Model<D>& model, const std::vector<int>& counts) {
 TEST_CASE("Reference: spheres in periodic boxes") {
   compare_shortly(periodic_box(2.2, 2.3, 2.1), {2, 3});
   compare_shortly(periodic_box(4.0, 5.0, 3.5), {12, 30});
-  compare_shortly(periodic_box(3.1, 3.2, 3.3), {20});    // dense
+  compare_shortly(periodic_box(3.1, 3.2, 3.3), {20});    // crowded
   compare_shortly(periodic_box(4.0, 3.0, 1.2), {3, 9});  // one sphere in height
   compare_shortly(periodic_box(1.9, 2.05, 1.95), {2});   // a single cell
   compare_shortly(inelastic(periodic_box(4.0, 5.0, 3.5), 0.9), {12, 30});
+}
+
+TEST_CASE("Reference: dense spheres, which have lists of their own") {
+  Scene scene = default_scene(3);
+  scene.particles.count = 32;
+  scene.box.setConstant(std::cbrt(32.0 * packing_fraction(3, 1.0) / 0.5));
+  const Model<3> model = model_of<3>(scene, 84);
+  compare<3>(model, start_state<3>(scene, 84), 300);
+  compare<3>(inelastic(model, 0.9), start_state<3>(scene, 85), 300);
 }
 
 TEST_CASE("Reference: spheres between walls of every kind, along every axis") {

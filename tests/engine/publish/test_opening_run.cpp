@@ -23,7 +23,7 @@ particles = { area_fraction = 0.6, restitution = 0.9 }
     R"(
 title = "Dense spheres, with lists of near particles"
 box.size = [10.0, 10.0, 10.0]
-particles = { volume_fraction = 0.45, restitution = 0.9 }
+particles = { volume_fraction = 0.5, restitution = 0.9 }
 )",
 };
 
