@@ -191,7 +191,8 @@ void add_conditions(std::vector<KeyDoc>& docs) {
     }
     if (always_required) doc.initial.clear();
     const auto presence = smooth.find(doc.path());
-    if (presence != smooth.end() && presence->second.reason == kNotWithoutSpins.reason) {
+    if (presence != smooth.end() &&
+        std::string_view(presence->second.reason) == kNotWithoutSpins.reason) {
       doc.conditions += " It " + std::string(kNotWithoutSpins.reason) + ".";
     }
     if (!doc.conditions.empty()) doc.conditions.erase(0, 1);
