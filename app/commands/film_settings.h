@@ -45,7 +45,9 @@ struct RenderOptions {
   TaskLimits limits;
   bool dry_run = false;
 
+  /// File extension of the output, with its dot.
   std::string extension() const { return std::filesystem::path(out).extension(); }
+  /// Whether the output is one picture, a film in a file, or a GIF.
   bool one_picture() const { return extension() == ".png"; }
   bool film() const { return Movie::knows(extension()); }
   bool gif() const { return extension() == ".gif"; }
