@@ -337,8 +337,8 @@ class XyzFrames {
 
   ParticleTable read_columns() const {
     static const std::map<std::string, int> kNames = {
-        {"pos", kX},       {"velo", kVx},       {"vel", kVx},   {"map_shift", kImage},
-        {"omega", kOmega}, {"radius", kRadius}, {"mass", kMass}};
+        {"pos", kX},       {"velo", kVx},       {"vel", kVx},    {"map_shift", kImage},
+        {"omega", kOmega}, {"radius", kRadius}, {"mass", kMass}, {"masses", kMass}};
     std::string rest = value_of("Properties") + ':';
     std::vector<std::string> parts;
     for (std::size_t end = 0; (end = rest.find(':')) != rest.npos; rest.erase(0, end + 1)) {

@@ -44,8 +44,8 @@ struct NearListView {
         next(of.next) {}
 };
 
-/// The lists that continue full lists of cells. They fill one cache line: lists of spheres continue
-/// often, by a few neighbours.
+/// The lists that continue full lists. They fill one cache line: lists of spheres continue often,
+/// by a few neighbours.
 template <int D, class List>
 class Continuations {
  public:

@@ -168,7 +168,7 @@ class Melting {
   std::vector<Vec<D>> positions() const { return gas_.positions(); }
 
  private:
-  // Their mean square displacement is known to a percent.
+  // Sites whose displacements are measured. The error of their mean square is below a percent.
   static constexpr std::size_t kSites = 10'000;
   static constexpr int kRounds = 10;
   static constexpr std::uint64_t kCollisionsPerRound = 20;  // per particle

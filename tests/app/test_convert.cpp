@@ -246,7 +246,7 @@ TEST_CASE("Convert: no quantity is lost, doubled or invented") {
   refused("a.dump", dump("x y vx vy diameter", "1 2 0 0 2"),
           "a.dump:10: the diameter is 2 instead of 1");
   std::string masses = kFrame;
-  masses.replace(masses.find("radius"), 6, "mass");
+  masses.replace(masses.find("radius"), 6, "masses");  // the name of ASE
   shell.write("same.xyz", masses);
   CHECK(shell.run("clatter convert same.xyz a.csv").code == 0);
   masses.replace(masses.rfind("0.5"), 3, "0.6");
