@@ -44,8 +44,11 @@ struct NearListView {
         next(of.next) {}
 };
 
-/// The lists that continue full lists. They fill one cache line: lists of spheres continue often,
-/// by a few neighbours.
+/// Capacity of the lists that continue full lists. These fill one cache line: lists of spheres
+/// continue often, by a few neighbours.
+inline constexpr int kContinuedCapacity = 14;
+
+/// The lists that continue full lists.
 template <int D, class List>
 class Continuations {
  public:
@@ -68,7 +71,7 @@ class Continuations {
 
  private:
   static constexpr std::uint32_t kNone = List::kNone;
-  struct alignas(64) Continued : NearList<14> {};
+  struct alignas(64) Continued : NearList<kContinuedCapacity> {};
 
   template <typename VisitList>
   void visit_lists(const List& first, const VisitList& visit) const;

@@ -19,8 +19,7 @@ constexpr bool are_rows() {
   return sizeof(Particle<D>) == kRowLength * sizeof(double) && offsetof(Particle<D>, flight) == 0 &&
          offsetof(Flight<D>, v) == D * sizeof(double) &&
          offsetof(Flight<D>, time) == 2 * D * sizeof(double) &&
-         offsetof(Particle<D>, image) == (2 * D + 1) * sizeof(double) + sizeof(std::uint32_t) &&
-         Candidates<D>::kCapacity >= Neighbourhood<D>::kCapacity;
+         offsetof(Particle<D>, image) == (2 * D + 1) * sizeof(double) + sizeof(std::uint32_t);
 }
 static_assert(are_rows<2>() && are_rows<3>());
 
@@ -95,19 +94,24 @@ void Prediction<D>::weigh_each(std::uint32_t particle, const Candidates<D>& near
   for (int i = 0; i < near.size; ++i) offer_particle(particle, near, i, kTouching, plan);
 }
 
-// Copies a whole list, because its length is unpredictable. All lists of a run have the same
-// capacity.
-template <int D>
+// Copies a list of a known capacity. It copies the whole list, because its length is unpredictable.
+template <int kCapacity, int D>
 [[gnu::always_inline]] static inline void take(const NearListView& list, Candidates<D>& near) {
-  using Longest = typename CellGrid<D>::List;
-  using Shortest = NearList<Neighbourhood<D>::kLeastCapacity>;
-  static_assert(sizeof near.neighbours >= sizeof(Longest));
-  if (sizeof(Longest) > sizeof(Shortest) && list.capacity > Neighbourhood<D>::kLeastCapacity) {
-    std::memcpy(near.neighbours, list.neighbours, sizeof(Longest));
-  } else {
-    std::memcpy(near.neighbours, list.neighbours, sizeof(Shortest));
-  }
+  static_assert(sizeof(NearList<kCapacity>) <= sizeof near.neighbours);
+  std::memcpy(near.neighbours, list.neighbours, sizeof(NearList<kCapacity>));
   near.size = list.count;
+}
+
+// Copies the first list of a particle. All first lists of a run have the same capacity.
+template <int D>
+[[gnu::always_inline]] static inline void take_first(const NearListView& list,
+                                                     Candidates<D>& near) {
+  constexpr int kLeast = Neighbourhood<D>::kLeastCapacity, kMost = Neighbourhood<D>::kCapacity;
+  if (kMost > kLeast && list.capacity > kLeast) {
+    take<kMost>(list, near);
+  } else {
+    take<kLeast>(list, near);
+  }
 }
 
 template <int D>
@@ -132,7 +136,7 @@ bool Prediction<D>::look_at_plain_lists(const Requests<kParticles>& requests) co
     const NearListView list = near_.near(requests[k].particle, requests[k].plan->cell);
     if (list.wraps || list.next != NearListView::kNone) return false;
     particles[k] = requests[k].particle;
-    take<D>(list, near[k]);
+    take_first(list, near[k]);
   }
   const auto first = first_of<kFalling, false>(particles, near);
   bool unique = true;
@@ -157,7 +161,7 @@ void Prediction<D>::look_at_lists(const Requests<kParticles>& requests) const {
   std::array<Candidates<D>, kParticles> near;
   for (std::size_t k = 0; k < kParticles; ++k) {
     particles[k] = requests[k].particle;
-    take<D>(near_.near(particles[k], requests[k].plan->cell), near[k]);
+    take_first(near_.near(particles[k], requests[k].plan->cell), near[k]);
   }
   const auto first = first_of<kFalling, true>(particles, near);
   for (std::size_t k = 0; k < kParticles; ++k) {
@@ -168,7 +172,7 @@ void Prediction<D>::look_at_lists(const Requests<kParticles>& requests) const {
     while (list.next != NearListView::kNone) {
       list = near_.next(list);
       std::array<Candidates<D>, 1> more;
-      take<D>(list, more[0]);
+      take<kContinuedCapacity>(list, more[0]);
       const FirstContact of_more = first_of<kFalling, true, 1>({particles[k]}, more)[0];
       offer_first(particles[k], more[0], of_more, plan);
     }
