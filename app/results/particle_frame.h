@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -27,5 +29,17 @@ struct ParticleFrame {
   std::vector<Vector> images;      ///< [N] periodic images
   std::vector<double> masses;      ///< [N] equal; empty: the file has none
 };
+
+/// Whether a frame has disks: no position or velocity out of the plane z = 0. Without particles, it
+/// has disks if its box is absent or a layer at most one diameter deep.
+bool is_flat(const ParticleFrame& frame);
+
+/// The number of a frame in the run that wrote it, from the number in a file; 0 if that has no
+/// meaning.
+long step_of(double number);
+
+/// Throws the UserError of a file that lacks the wanted frame. `frames` is the number of its
+/// frames.
+[[noreturn]] void refuse_frame(const std::filesystem::path& path, std::size_t frames);
 
 }  // namespace clatter

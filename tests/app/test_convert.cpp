@@ -108,6 +108,24 @@ TEST_CASE("Convert: a frame in one format is the frame in each other format") {
   }
 }
 
+TEST_CASE("Convert: a file without particles keeps the dimension of its box") {
+  for (const bool spheres : {false, true}) {
+    const Shell shell;
+    shell.write("s.toml", spheres ? kSpheres : kDisks);
+    for (const std::string& format : kBoxed) {
+      CAPTURE(spheres);
+      CAPTURE(format);
+      const Outcome run = shell.run(
+          "clatter measure s.toml --quiet --set particles.count=0 "
+          "--until 2 --every 2 --trajectory t." +
+          format + " && clatter convert t." + format + " a.csv");
+      CAPTURE(run.err);
+      REQUIRE(run.code == 0);
+      CHECK(says(shell.read("a.csv"), ",vz") == spheres);
+    }
+  }
+}
+
 TEST_CASE("Convert: files of other programs with the same columns") {
   const Shell shell;
   // A box away from the origin, atoms in any order, and one beyond the periodic side.
