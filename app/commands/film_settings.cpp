@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "app/commands/flag_checks.h"
-#include "app/runs/film_cell.h"
 #include "engine/error.h"
 #include "engine/scene/text.h"
 #include "engine/whole_number.h"
+#include "render/output/cells.h"
 #include "render/output/wav_file.h"
 
 namespace clatter {
@@ -233,7 +233,7 @@ void require_comparable(const RenderOptions& options) {
 void require_cells(const FilmState& film, std::span<const ComparedScene> scenes) {
   const int count = static_cast<int>(scenes.size());
   for (int number = 0; number < count; ++number) {
-    const Size cell = cell_size(film.size, number, count);
+    const Size cell = picture_cell(film.size, number, count).size;
     if (cell.width < kMinSize.width || cell.height < kMinSize.height) {
       throw UserError({"--size", 0, 0}, "the cell of a gas would be " + size_text(cell),
                       "give a size that leaves at least " + size_text(kMinSize) + " for each gas");

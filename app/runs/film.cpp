@@ -8,6 +8,7 @@
 #include "app/system/interrupt.h"
 #include "engine/checkpoint/archive.h"
 #include "engine/error.h"
+#include "render/output/cells.h"
 
 namespace clatter {
 
@@ -99,8 +100,9 @@ void Film<D>::add_cells(const std::vector<ComparedScene>& compared, const View& 
                         const Gl& gl) {
   const std::vector<OverlayText> texts = texts_of(compared, state_.times.speed);
   const auto add = [&](std::size_t k, const View& own) {
-    const Size size = cell_size(state_.size, static_cast<int>(k), static_cast<int>(texts.size()));
-    cells_.emplace_back(gl, size, state_.samples, state_.transparent, own, texts[k]);
+    const PictureCell cell =
+        picture_cell(state_.size, static_cast<int>(k), static_cast<int>(texts.size()));
+    cells_.emplace_back(gl, cell.size, state_.samples, state_.transparent, own, texts[k]);
   };
   add(0, view);
   for (std::size_t k = 1; k < compared.size(); ++k) {

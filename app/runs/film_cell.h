@@ -36,16 +36,6 @@ class FilmCell {
   AutoRanges ranges_;
 };
 
-/// The largest number of cells in a picture.
-inline constexpr int kMostCells = 4;
-
-/// Size of cell `number` of `count` in a picture of `whole` size. Cells are in a row; four are in
-/// two rows.
-Size cell_size(Size whole, int number, int count);
-
-/// The picture of `whole` size with these cells.
-Image joined_cells(Size whole, const std::vector<Image>& cells);
-
 /// Automatic colour ranges from the first averaging window of a film, that begins at the present
 /// time of the run: the largest values at the ends of the parts of the window, and of its average.
 /// The run stays where it is. `last` is the time of the last frame. Ends early at an interrupt.

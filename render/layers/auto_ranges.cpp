@@ -103,27 +103,37 @@ void AutoRanges::fix(const RangeEnds& ends) {
   arrows_.fixed = fixed(ends.arrows);
 }
 
-Legends AutoRanges::legends(const Snapshot& snapshot, const View& view) {
-  const auto dimension = static_cast<int>(snapshot.box.size());
+Legends AutoRanges::legends(const std::vector<const Snapshot*>& snapshots, const View& view) {
+  const Snapshot& first = *snapshots.front();
+  const auto dimension = static_cast<int>(first.box.size());
   const Colour ground = theme_of(view).background;
+  const auto largest = [&](auto extent) {
+    return [&snapshots, extent] {
+      double most = 0.0;
+      for (const Snapshot* snapshot : snapshots) most = std::max(most, extent(*snapshot));
+      return most;
+    };
+  };
   Legends legends;
   if (view.colour_by != ColourBy::None) {
     const Label label = label_of(view.colour_by, dimension);
     legends.disks = disks_.legend(
         label, view.range, map_of(label.sign, view, ground),
-        [&] { return disk_extent(snapshot, view.colour_by); }, true);
+        largest([&](const Snapshot& gas) { return disk_extent(gas, view.colour_by); }), true);
   }
-  if (shows_field(snapshot, view)) {
-    const FieldMap& map = *snapshot.field;
+  if (shows_field(first, view)) {
+    const FieldMap& map = *first.field;
     legends.field = field_.legend(
         label_of(map.field, dimension), view.field_range, map_of(map.field, view, ground),
-        [&] { return field_extent(snapshot, view); }, map.whole_window);
+        largest([&](const Snapshot& gas) { return gas.field ? field_extent(gas, view) : 0.0; }),
+        map.whole_window);
   }
-  if (view.arrows && snapshot.arrows) {
-    const Label label = label_of(snapshot.arrows->quantity, dimension);
-    const double longest = snapshot.arrows->cell.minCoeff();
-    legends.arrows = {label,
-                      longest / arrows_.end(label, [&] { return arrow_extent(*snapshot.arrows); })};
+  if (view.arrows && first.arrows) {
+    const Label label = label_of(first.arrows->quantity, dimension);
+    const double longest = first.arrows->cell.minCoeff();
+    const auto extent =
+        largest([](const Snapshot& gas) { return gas.arrows ? arrow_extent(*gas.arrows) : 0.0; });
+    legends.arrows = {label, longest / arrows_.end(label, extent)};
   }
   return legends;
 }

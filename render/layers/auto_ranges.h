@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "engine/publish/snapshot.h"
 #include "render/colour_range.h"
@@ -33,7 +34,10 @@ class AutoRanges {
   void fix(const RangeEnds& ends);
 
   /// The legends of the next picture. Automatic ranges follow the snapshot.
-  Legends legends(const Snapshot& snapshot, const View& view);
+  Legends legends(const Snapshot& snapshot, const View& view) { return legends({&snapshot}, view); }
+  /// The legends of the next pictures of several gases, of the same dimension. Automatic ranges
+  /// contain the values of all of them.
+  Legends legends(const std::vector<const Snapshot*>& snapshots, const View& view);
 
  private:
   /// Automatic colour range of one quantity.
