@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -13,7 +14,10 @@ namespace clatter {
 /// Content of the profile along an axis that a frame carries.
 enum class Profiled { Nothing, Fields, Balances };
 
-/// Commands of the user to a running gas.
+/// Largest number of gases that run in step.
+inline constexpr std::size_t kMostGases = 4;
+
+/// Commands of the user to the running gas, or to the gases that run in step.
 namespace command {
 
 /// Plays the run, up to a time at which it halts automatically; or halts it now.
@@ -83,14 +87,36 @@ struct ShowProfile {
 struct Pick {
   std::optional<std::uint32_t> particle;
 };
+/// Adds a copy of the selected gas as the last one, in step with it and with the same past.
+/// Impossible with kMostGases gases.
+struct CopyGas {};
+/// Removes a gas, but not the only one. Later numbers move down. If the selected gas is removed,
+/// the one before it is selected.
+struct RemoveGas {
+  std::size_t gas = 0;
+};
+/// Selects the gas that commands about one gas change from now on: laws, nudges, futures, picks and
+/// Open::scene. A number without a gas selects none other.
+struct SelectGas {
+  std::size_t gas = 0;
+};
+/// A scene and its seed.
+struct GasToOpen {
+  Scene scene;
+  std::uint64_t seed = 1;
+};
 /// Opens a scene, playing or halted. The gas starts as the scene describes, or keeps as many
-/// current particles as fit, see adapt_to_scene(). A gas of another dimension is not kept.
+/// current particles as fit, see adapt_to_scene(). A gas of another dimension is not kept. The
+/// scene replaces all gases. Those `beside` it start in step with it, or each keeps the particles
+/// of the gas with its number.
 struct Open {
   Scene scene;
   std::uint64_t seed = 1;
   bool plays = true;
   bool keeps_gas = false;
-  VecX shift = {};  ///< displacement of the kept particles; empty: none
+  VecX shift = {};                     ///< displacement of the scene's kept particles; empty: none
+  std::vector<GasToOpen> beside = {};  ///< the other gases, in order of their numbers
+  std::size_t gas = 0;                 ///< number of the scene's gas, which is selected
 };
 
 /// Abandons the scene that is being opened, and the commands after its Open. The former gas
@@ -103,7 +129,8 @@ using Command =
     std::variant<command::Play, command::PlayBackwards, command::Step, command::StepCollision,
                  command::Jump, command::StepBack, command::ExchangeFutures, command::MoveChange,
                  command::ReplaceChanges, command::Loop, command::SetSpeed, command::SetLaws,
-                 command::Nudge, command::Show, command::ShowProfile, command::Pick, command::Open,
+                 command::Nudge, command::Show, command::ShowProfile, command::Pick,
+                 command::CopyGas, command::RemoveGas, command::SelectGas, command::Open,
                  command::CancelOpen>;
 
 }  // namespace clatter

@@ -36,8 +36,13 @@ struct ContactTimeError {
   double elasticised = 0.0;   ///< elasticised share of the collisions between particles
 };
 
-/// A message of the engine's thread: the gas at one time, and the state of its run.
+/// A message of the engine's thread: the selected gas at one time, and the state of its run.
 struct Frame {
+  std::size_t gas = 0;   ///< number of the gas
+  std::uint64_t id = 0;  ///< of the gas, which keeps it; a copy is another gas
+  /// Frames of the other gases at this time, in order of their numbers. They have what concerns one
+  /// gas, `run` and `speed`.
+  std::vector<Frame> beside = {};
   std::uint64_t run = 0;      ///< number of runs opened; 0: none, and all else is undefined
   std::uint64_t handled = 0;  ///< number of commands done or refused
   Snapshot snapshot;
@@ -79,5 +84,8 @@ struct Frame {
   std::string message;         ///< last message: a refused command, or why the run stopped
   std::uint64_t messages = 0;  ///< number of messages so far
 };
+
+/// The frames of all gases, in order of their numbers. They belong to `frame`.
+std::vector<const Frame*> frames_of(const Frame& frame);
 
 }  // namespace clatter

@@ -9,7 +9,9 @@ namespace clatter {
 static std::size_t bytes_of(const Frame& frame) {
   const Snapshot& gas = frame.snapshot;
   const auto numbers = gas.positions.size() + gas.velocities.size() + gas.spins.size();
-  return sizeof(Frame) + static_cast<std::size_t>(numbers) * sizeof(double) +
+  std::size_t beside = 0;
+  for (const Frame& other : frame.beside) beside += bytes_of(other);
+  return beside + sizeof(Frame) + static_cast<std::size_t>(numbers) * sizeof(double) +
          gas.flights.size() * (sizeof(FlightPiece) + 9 * sizeof(double)) +
          gas.angles.size() * sizeof(double) + gas.orientations.size() * sizeof(Eigen::Quaterniond);
 }

@@ -1,6 +1,7 @@
 #include "engine/publish/run_record.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 namespace clatter {
@@ -14,7 +15,7 @@ std::size_t SavedState<D>::bytes() const {
 
 template <int D>
 bool RunRecord<D>::due(std::uint64_t work) const {
-  return work >= states_.back().work() + spacing_;
+  return work >= states_.back()->work() + spacing_;
 }
 
 template <int D>
@@ -22,12 +23,17 @@ void RunRecord<D>::add(SavedState<D> state) {
   // A return to a state predicts the plans of all particles: the work of some events of each.
   constexpr std::uint64_t kFewEvents = 20'000, kEventsPerParticle = 5;
   if (spacing_ == 0) spacing_ = kFewEvents + kEventsPerParticle * state.run.flights.size();
-  if (!states_.empty() && states_.back().time == state.time) {
-    state.stopped |= states_.back().stopped;
-    bytes_ -= states_.back().bytes();
+  if (!states_.empty() && states_.back()->time == state.time) {
+    state.stopped |= states_.back()->stopped;
+    bytes_ -= states_.back()->bytes();
     states_.pop_back();
   }
-  bytes_ += state.bytes();
+  push(std::make_shared<const SavedState<D>>(std::move(state)));
+}
+
+template <int D>
+void RunRecord<D>::push(std::shared_ptr<const SavedState<D>> state) {
+  bytes_ += state->bytes();
   states_.push_back(std::move(state));
   while (bytes_ > budget_ && spacing_ < kNoLimit / 2) thin_out();
 }
@@ -35,11 +41,11 @@ void RunRecord<D>::add(SavedState<D> state) {
 template <int D>
 void RunRecord<D>::thin_out() {
   spacing_ *= 2;
-  std::vector<SavedState<D>> kept;
-  for (SavedState<D>& state : states_) {
-    const bool remains = kept.empty() || &state == &states_.back() || state.stopped;
-    if (!remains && state.work() < kept.back().work() + spacing_) {
-      bytes_ -= state.bytes();
+  States kept;
+  for (auto& state : states_) {
+    const bool remains = kept.empty() || &state == &states_.back() || state->stopped;
+    if (!remains && state->work() < kept.back()->work() + spacing_) {
+      bytes_ -= state->bytes();
     } else {
       kept.push_back(std::move(state));
     }
@@ -48,39 +54,44 @@ void RunRecord<D>::thin_out() {
 }
 
 template <int D>
-std::vector<SavedState<D>> RunRecord<D>::cut(double time) {
-  const auto first = std::ranges::lower_bound(states_, time, {}, &SavedState<D>::time);
-  std::vector<SavedState<D>> removed(std::make_move_iterator(first),
-                                     std::make_move_iterator(states_.end()));
+static double time_of(const std::shared_ptr<const SavedState<D>>& state) {
+  return state->time;
+}
+
+template <int D>
+typename RunRecord<D>::States RunRecord<D>::cut(double time) {
+  const auto first = std::ranges::lower_bound(states_, time, {}, time_of<D>);
+  States removed(first, states_.end());
   states_.erase(first, states_.end());
-  for (const SavedState<D>& state : removed) bytes_ -= state.bytes();
+  for (const auto& state : removed) bytes_ -= state->bytes();
   return removed;
 }
 
 template <int D>
-void RunRecord<D>::append(std::vector<SavedState<D>> states) {
-  for (SavedState<D>& state : states) add(std::move(state));
+void RunRecord<D>::append(const States& states) {
+  for (const auto& state : states) push(state);
 }
 
 template <int D>
 const SavedState<D>& RunRecord<D>::before(double time) const {
-  const auto after = std::ranges::upper_bound(states_, time, {}, &SavedState<D>::time);
-  return after == states_.begin() ? states_.front() : *(after - 1);
+  const auto after = std::ranges::upper_bound(states_, time, {}, time_of<D>);
+  return after == states_.begin() ? *states_.front() : **(after - 1);
 }
 
 template <int D>
 const SavedState<D>* RunRecord<D>::after(double time, std::uint64_t collisions) const {
-  const auto state = std::ranges::find_if(states_, [&](const SavedState<D>& state) {
-    return state.time > time || (state.time == time && state.run.counts.collisions() > collisions);
+  const auto state = std::ranges::find_if(states_, [&](const auto& saved) {
+    return saved->time > time ||
+           (saved->time == time && saved->run.counts.collisions() > collisions);
   });
-  return state == states_.end() ? nullptr : &*state;
+  return state == states_.end() ? nullptr : state->get();
 }
 
 template <int D>
 std::vector<double> RunRecord<D>::stops() const {
   std::vector<double> times;
-  for (const SavedState<D>& state : states_) {
-    if (state.stopped) times.push_back(state.time);
+  for (const auto& state : states_) {
+    if (state->stopped) times.push_back(state->time);
   }
   return times;
 }

@@ -38,10 +38,14 @@ struct SavedState {
 
 /// The states that a run keeps to show its past: a state at every so much work of the engine. At
 /// the limit of its memory the record removes every second state, so that the distances between
-/// states double. The first and the last state remain, and states where the run stopped.
+/// states double. The first and the last state remain, and states where the run stopped. Copies of
+/// a record share its states, and each counts them as its own.
 template <int D>
 class RunRecord {
  public:
+  /// States in order of time.
+  using States = std::vector<std::shared_ptr<const SavedState<D>>>;
+
   /// A record with states of at most `budget` bytes in all, except for those that remain.
   explicit RunRecord(std::size_t budget) : budget_(budget) {}
 
@@ -50,9 +54,9 @@ class RunRecord {
   /// Adds a state at the end. It replaces a last state of the same time.
   void add(SavedState<D> state);
   /// Removes all states from a time on, and returns them. The record may be empty afterwards.
-  std::vector<SavedState<D>> cut(double time);
+  States cut(double time);
   /// Adds the result of cut() again.
-  void append(std::vector<SavedState<D>> states);
+  void append(const States& states);
 
   /// The last state at or before a time; the first state if there is none. Requires a state.
   const SavedState<D>& before(double time) const;
@@ -66,12 +70,13 @@ class RunRecord {
   std::size_t bytes() const { return bytes_; }
 
  private:
+  void push(std::shared_ptr<const SavedState<D>> state);
   void thin_out();
 
   std::size_t budget_;
   std::size_t bytes_ = 0;
   std::uint64_t spacing_ = 0;  // set by the first state
-  std::vector<SavedState<D>> states_;
+  States states_;
 };
 
 extern template struct SavedState<2>;

@@ -28,12 +28,16 @@ template <int D>
 class RunOf : public WatchedRun {
  public:
   RunOf(const Scene& scene, std::uint64_t seed, State<D> start, std::size_t record_bytes);
+  // A copy of a run, whose present state is `now`.
+  RunOf(const RunOf& of, const SavedState<D>& now);
   RunOf(const RunOf&) = delete;
   RunOf& operator=(const RunOf&) = delete;
 
   double time() const override { return run_.simulation().time(); }
   const EventCounts& counts() const override { return run_.simulation().counts(); }
+  int dimension() const override { return D; }
   AnyState state() const override { return run_.simulation().state(); }
+  std::unique_ptr<WatchedRun> copy() override;
   bool prepare(const StopRequest& pause) override { return run_.prepare(pause); }
   bool run_until(double time, std::uint64_t collisions, std::uint64_t steps,
                  const StopRequest& pause) override;
@@ -84,6 +88,7 @@ class RunOf : public WatchedRun {
     std::optional<PreviousCollision> found_;
   };
 
+  void observe_all();
   void observe(Simulation<D>& simulation);
   void observe_requested(Simulation<D>& simulation, double window);
   void close_window();
@@ -93,7 +98,7 @@ class RunOf : public WatchedRun {
     double from = 0.0;  // time of the change
     double head = 0.0;
     std::vector<Change> changes;  // all changes of the run
-    std::vector<SavedState<D>> states;
+    typename RunRecord<D>::States states;
     std::size_t bytes() const;
   };
 
@@ -156,6 +161,37 @@ RunOf<D>::RunOf(const Scene& scene, std::uint64_t seed, State<D> start, std::siz
   tally_.temperature_integral = Vec<D>::Zero();
   tally_at_laws_ = tally_;
   run_.show(scene.view);
+  observe_all();
+  SavedState<D> first = saved_state();
+  first.changed_until = -std::numeric_limits<double>::infinity();
+  record_.add(std::move(first));
+}
+
+template <int D>
+RunOf<D>::RunOf(const RunOf& of, const SavedState<D>& now)
+    : run_(of.run_.scene(), of.run_.seed(), now.run),
+      profiled_(of.profiled_),
+      profile_axis_(of.profile_axis_),
+      started_(of.started_),
+      record_(of.record_),
+      head_(of.head_),
+      record_bytes_(of.record_bytes_),
+      futures_(of.futures_),
+      forked_at_(of.forked_at_) {
+  run_.show(of.run_.laws().view);
+  observe_all();
+  return_to(now, of.run_.scene().changes);
+}
+
+template <int D>
+std::unique_ptr<WatchedRun> RunOf<D>::copy() {
+  settle();
+  return std::make_unique<RunOf>(*this, saved_state());
+}
+
+// Observes the present simulation, and those under later laws.
+template <int D>
+void RunOf<D>::observe_all() {
   run_.on_change = [this](Simulation<D>& next) {
     close_window();
     observe(next);
@@ -163,9 +199,6 @@ RunOf<D>::RunOf(const Scene& scene, std::uint64_t seed, State<D> start, std::siz
     recorded_laws_.reset();
   };
   observe(run_.simulation());
-  SavedState<D> first = saved_state();
-  first.changed_until = -std::numeric_limits<double>::infinity();
-  record_.add(std::move(first));
 }
 
 template <int D>
@@ -332,7 +365,7 @@ void RunOf<D>::go_back(double time) {
 template <int D>
 std::size_t RunOf<D>::Future::bytes() const {
   std::size_t bytes = 0;
-  for (const SavedState<D>& state : states) bytes += state.bytes();
+  for (const auto& state : states) bytes += state->bytes();
   return bytes;
 }
 
@@ -416,7 +449,7 @@ double RunOf<D>::exchange_futures() {
   save_head();
   const double time = std::min(this->time(), other_->from);
   Future now = end_future(other_->from);
-  record_.append(std::move(other_->states));
+  record_.append(other_->states);
   return_to(record_.before(time), other_->changes);
   head_ = other_->head;
   other_ = std::move(now);

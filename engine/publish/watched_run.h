@@ -33,8 +33,15 @@ class WatchedRun {
   virtual double time() const = 0;
   /// Events since time 0.
   virtual const EventCounts& counts() const = 0;
+  /// 2 for disks, 3 for spheres.
+  virtual int dimension() const = 0;
   /// All particles at time().
   virtual AnyState state() const = 0;
+
+  /// A copy of the run at its present time, with the same past and the same changes. Its profiles
+  /// and observables restart, it picks no particle and has no other future. Recorded states are
+  /// shared.
+  virtual std::unique_ptr<WatchedRun> copy() = 0;
 
   /// As Simulation::prepare.
   virtual bool prepare(const StopRequest& pause) = 0;

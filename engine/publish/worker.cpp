@@ -11,10 +11,10 @@
 #include "engine/error.h"
 #include "engine/initial/adapt_to_scene.h"
 #include "engine/physics/temperature.h"
+#include "engine/publish/gases_in_step.h"
 #include "engine/publish/opening_run.h"
 #include "engine/publish/pace.h"
 #include "engine/publish/rewinder.h"
-#include "engine/publish/watched_run.h"
 
 namespace clatter {
 
@@ -98,18 +98,27 @@ class EngineWork {
   bool busy() const { return moves() || opens() || goes() || looks_ahead(); }
 
  private:
-  // A scene that is being opened.
+  // Scenes that are being opened.
   struct Opening {
     command::Open asked;
-    OpeningRun run;
+    std::vector<std::unique_ptr<OpeningRun>> runs = {};
     bool complete = false;
+
+    bool advance(const StopRequest& pause) {
+      return std::ranges::all_of(runs, [&](auto& run) { return run->advance(pause); });
+    }
+    double progress() const {
+      double sum = 0.0;
+      for (const auto& run : runs) sum += run->progress();
+      return sum / static_cast<double>(runs.size());
+    }
   };
 
-  bool moves() const { return watched_ && (plays_ || step_to_ || to_collision_); }
+  bool moves() const { return gases_ && (plays_ || step_to_ || to_collision_); }
   bool opens() const { return opening_.has_value(); }
   bool goes() const { return searches_ || going_to_; }
   // A gas at rest has time to search for the next collision of the picked particle.
-  bool looks_ahead() const { return watched_ && !moves() && watched_->looks_ahead(); }
+  bool looks_ahead() const { return gases_ && !moves() && gases_->looks_ahead(); }
 
   // Commands wait while a scene is being opened, and while the run is on its way to another time.
   void obey_all() {
@@ -146,7 +155,7 @@ class EngineWork {
     waiting_.erase(waiting_.begin(), last - 1);
   }
 
-  double time() { return watched_->time(); }
+  double time() { return gases_->time(); }
 
   // In a tenth of a frame there is a time with few digits, for the scene file.
   double delay() const { return 0.1 * pace_.speed() * frame_seconds_; }
@@ -181,39 +190,39 @@ class EngineWork {
     halt();
     plays_ = asked.on;
     until_ = asked.until;
-    if (watched_ && !plays_) watched_->settle();
+    if (gases_ && !plays_) gases_->settle();
   }
   void obey(const command::PlayBackwards&) {
     halt();
-    plays_ = backwards_ = watched_ && time() > 0.0;
+    plays_ = backwards_ = gases_ && time() > 0.0;
   }
   void obey(const command::Step& asked) {
     halt();
-    if (watched_) step_to_ = time() + asked.duration;
+    if (gases_) step_to_ = time() + asked.duration;
   }
   void obey(const command::StepCollision&) {
     halt();
-    if (watched_) to_collision_ = watched_->counts().pair_collisions + 1;
+    if (gases_) to_collision_ = gases_->counts().pair_collisions + 1;
   }
   void obey(const command::Jump& asked) {
     halt();
-    if (watched_) go_to(std::clamp(asked.time, 0.0, watched_->head()));
+    if (gases_) go_to(std::clamp(asked.time, 0.0, gases_->head()));
   }
   void obey(const command::StepBack&) {
     halt();
-    searches_ = watched_ != nullptr;
+    searches_ = gases_ != nullptr;
   }
   void obey(const command::MoveChange& asked) {
     halt();
-    if (watched_) going_to_ = watched_->move_change(asked.number, asked.time);
+    if (gases_) going_to_ = gases_->move_change(asked.number, asked.time);
   }
   void obey(const command::ReplaceChanges& asked) {
     halt();
-    if (watched_) going_to_ = watched_->replace_changes(asked.changes, asked.from);
+    if (gases_) going_to_ = gases_->replace_changes(asked.changes, asked.from);
   }
   void obey(const command::ExchangeFutures&) {
     halt();
-    if (watched_) going_to_ = watched_->exchange_futures();
+    if (gases_) going_to_ = gases_->exchange_futures();
   }
   void obey(const command::Loop& asked) {
     loop_.reset();
@@ -221,32 +230,59 @@ class EngineWork {
   }
   void obey(const command::SetSpeed& asked) { pace_.set_speed(asked.speed); }
   void obey(const command::SetLaws& asked) {
-    if (watched_) watched_->change(asked.laws, delay());
+    if (gases_) gases_->change(asked.laws, delay());
   }
   void obey(const command::Nudge& asked) {
-    if (watched_) watched_->nudge(asked.nudge, delay());
+    if (gases_) gases_->nudge(asked.nudge, delay());
   }
   void obey(const command::Show& asked) {
-    if (watched_) watched_->show(asked.view);
+    if (gases_) gases_->show(asked.view);
   }
   void obey(const command::ShowProfile& asked) {
     profiled_ = asked;
-    if (watched_) watched_->show_profile(asked.what, asked.axis);
+    if (gases_) gases_->show_profile(asked.what, asked.axis);
   }
   void obey(const command::Pick& asked) {
-    if (watched_) watched_->pick(asked.particle);
+    if (gases_) gases_->pick(asked.particle);
+  }
+  void obey(const command::CopyGas&) {
+    if (gases_) gases_->add_copy(++ids_);
+  }
+  void obey(const command::RemoveGas& asked) {
+    if (!gases_) return;
+    leave_leader();
+    gases_->remove(asked.gas);
+  }
+  void obey(const command::SelectGas& asked) {
+    if (!gases_) return;
+    leave_leader();
+    gases_->select(asked.gas);
   }
   void obey(const command::Open& asked) {
-    Scene scene = asked.scene;
-    if (asked.keeps_gas && watched_) {
-      std::visit(
-          [&](auto&& state) { start_from(std::forward<decltype(state)>(state), asked, scene); },
-          watched_->state());
+    std::vector<command::GasToOpen> gases = asked.beside;
+    const std::size_t place = std::min(asked.gas, gases.size());
+    gases.insert(gases.begin() + static_cast<std::ptrdiff_t>(place), {asked.scene, asked.seed});
+    Opening opening{asked};
+    for (std::size_t k = 0; k < gases.size(); ++k) {
+      auto& [scene, seed] = gases[k];
+      if (asked.keeps_gas && gases_ && k < gases_->count()) {
+        const VecX shift = k == place ? asked.shift : VecX();
+        AnyState state = gases_->state_of(k);
+        std::visit([&](auto& present) { start_from(present, shift, seed, scene); }, state);
+      }
+      opening.runs.push_back(std::make_unique<OpeningRun>(scene, seed, record_bytes_));
     }
-    opening_.emplace(Opening{asked, OpeningRun(scene, asked.seed, record_bytes_)});
+    opening_.emplace(std::move(opening));
     if (work_on_opening()) finish_opening();
   }
   void obey(const command::CancelOpen&) {}
+
+  // Ends what counts the events of the selected gas, before another one is selected.
+  void leave_leader() {
+    if (to_collision_) halt();
+    partners_.reset();
+    rate_since_ = {};
+  }
 
   // Continues the opening for a slice of time. Returns whether it is complete.
   bool work_on_opening() {
@@ -254,7 +290,7 @@ class EngineWork {
     const auto due = Clock::now() + kSlice;
     bool complete = false;
     const bool possible = attempt([&] {
-      complete = opening_->run.advance([&] { return Clock::now() >= due || commands_.pending(); });
+      complete = opening_->advance([&] { return Clock::now() >= due || commands_.pending(); });
     });
     if (!possible) opening_.reset();
     return complete;
@@ -279,8 +315,15 @@ class EngineWork {
     Opening opening = *std::exchange(opening_, std::nullopt);
     const command::Open& asked = opening.asked;
     halt();
-    watched_ = opening.run.take();
-    watched_->show_profile(profiled_.what, profiled_.axis);
+    std::vector<std::unique_ptr<WatchedRun>> runs;
+    std::vector<std::uint64_t> ids;
+    for (const auto& run : opening.runs) {
+      runs.push_back(run->take());
+      ids.push_back(++ids_);
+    }
+    gases_ = std::make_unique<GasesInStep>(std::move(runs), std::move(ids),
+                                           std::min(asked.gas, asked.beside.size()));
+    gases_->show_profile(profiled_.what, profiled_.axis);
     pace_.set_speed(asked.scene.view.speed);
     plays_ = asked.plays;
     until_ = std::numeric_limits<double>::infinity();
@@ -292,7 +335,7 @@ class EngineWork {
 
   // Begins the way to a time of the run so far.
   void go_to(double time) {
-    watched_->go_back(time);
+    gases_->go_back(time);
     going_to_ = time;
   }
 
@@ -312,14 +355,14 @@ class EngineWork {
     stop_.clear();
     const bool possible = attempt([&] {
       if (searches_) {
-        if (!watched_->search_back(pauses)) return;
+        if (!gases_->search_back(pauses)) return;
         searches_ = false;
-        const std::optional<PreviousCollision> collision = watched_->previous_collision();
+        const std::optional<PreviousCollision> collision = gases_->previous_collision();
         if (collision) partners_there_ = collision->partners;
         go_to(collision ? collision->time : 0.0);
       }
-      if (!watched_->prepare(pauses)) return;
-      while (time() < *going_to_ && !watched_->run_until(*going_to_, kNoLimit, kNoLimit, pauses)) {
+      if (!gases_->prepare(pauses)) return;
+      while (time() < *going_to_ && !gases_->run_until(*going_to_, kNoLimit, kNoLimit, pauses)) {
         if (pauses()) return;
       }
       if (partners_there_) partners_ = partners_there_;
@@ -335,7 +378,7 @@ class EngineWork {
   void begin_rewind() {
     if (rewinder_) return;
     shown_ = wanted_ = time();
-    rewinder_.emplace(*watched_, pace_.speed() * frame_seconds_);
+    rewinder_.emplace(*gases_, pace_.speed() * frame_seconds_);
   }
 
   // Brings the run to the time of the shown frame.
@@ -367,14 +410,14 @@ class EngineWork {
     return backwards_ && in_time();
   }
 
-  // Makes the current gas the start state of another scene.
+  // Makes a gas, moved by a shift, the start state of another scene.
   template <int D>
-  static void start_from(State<D> state, const command::Open& asked, Scene& scene) {
+  static void start_from(State<D>& state, const VecX& shift, std::uint64_t seed, Scene& scene) {
     if (scene.dimension() != D) return;
-    if (asked.shift.size() > 0) {
-      for (Vec<D>& position : state.positions) position += asked.shift;
+    if (shift.size() > 0) {
+      for (Vec<D>& position : state.positions) position += shift;
     }
-    state = adapt_to_scene(state, scene, asked.seed);
+    state = adapt_to_scene(state, scene, seed);
     const double temperature = temperature_of(state);
     scene.particles.start = {
         .layout = Layout::File, .file = "", .state = std::move(state), .temperature = temperature};
@@ -396,9 +439,9 @@ class EngineWork {
     constexpr std::chrono::milliseconds kSlice{2};
     for (;;) {
       const auto began = Clock::now();
-      const EventCounts& counts = watched_->counts();
-      const bool arrived = watched_->run_until(time, collisions, counts.steps() + slice_);
-      const bool collided = watched_->counts().collisions() >= collisions;
+      const EventCounts& counts = gases_->counts();
+      const bool arrived = gases_->run_until(time, collisions, counts.steps() + slice_);
+      const bool collided = gases_->counts().collisions() >= collisions;
       if (arrived || collided) return arrived;
       // A slice that ends early says nothing about the cost of its steps.
       const auto now = Clock::now();
@@ -432,8 +475,8 @@ class EngineWork {
     } else {
       const double ahead = time() + pace_.speed() * frame_seconds_;
       while (to_collision_ && time() < ahead && Clock::now() < due && !commands_.pending()) {
-        advance(ahead, watched_->counts().collisions() + 1, due);
-        const std::uint64_t collisions = watched_->counts().pair_collisions;
+        advance(ahead, gases_->counts().collisions() + 1, due);
+        const std::uint64_t collisions = gases_->counts().pair_collisions;
         if (to_collision_ && collisions >= *to_collision_) halt_at_collision();
       }
     }
@@ -442,12 +485,12 @@ class EngineWork {
 
   void halt_at_collision() {
     halt();
-    partners_ = watched_->partners();
-    attempt([this] { watched_->settle(); });
+    partners_ = gases_->partners();
+    attempt([this] { gases_->settle(); });
   }
 
   void publish() {
-    if (watched_ && !attempt([&] { watched_->tell(frames_.back(), !moves()); })) halt();
+    if (gases_ && !attempt([&] { gases_->tell(frames_.back(), !moves()); })) halt();
     send_frame();
   }
 
@@ -460,13 +503,17 @@ class EngineWork {
   void send_frame() {
     Frame& frame = frames_.back();
     frame.opening.reset();
-    if (opening_) frame.opening = opening_->run.progress();
+    if (opening_) frame.opening = opening_->progress();
     frame.run = runs_;
     frame.handled = handled_;
     frame.plays = plays_;
     frame.backwards = backwards_;
     frame.loop = loop_;
     frame.speed = pace_.speed();
+    for (Frame& beside : frame.beside) {
+      beside.run = runs_;
+      beside.speed = pace_.speed();
+    }
     frame.held = pace_.held();
     frame.events_per_second = event_rate();
     frame.partners = partners_;
@@ -480,9 +527,9 @@ class EngineWork {
   // Collisions per second of real time over about the last half second.
   double event_rate() {
     constexpr std::chrono::milliseconds kLong{500};
-    if (!plays_ || backwards_ || !watched_) return rate_ = 0.0;
+    if (!plays_ || backwards_ || !gases_) return rate_ = 0.0;
     const auto now = Clock::now();
-    const std::uint64_t events = watched_->counts().collisions();
+    const std::uint64_t events = gases_->counts().collisions();
     if (rate_since_ == Clock::time_point{}) {
       rate_since_ = now;
       events_then_ = events;
@@ -503,7 +550,7 @@ class EngineWork {
   std::size_t record_bytes_;
   double frame_seconds_;
   Pace pace_;
-  std::unique_ptr<WatchedRun> watched_;
+  std::unique_ptr<GasesInStep> gases_;
   std::optional<Opening> opening_;
   std::deque<Command> waiting_;  // commands that were not obeyed yet
   command::ShowProfile profiled_ = {.what = Profiled::Nothing};
@@ -522,6 +569,7 @@ class EngineWork {
   std::optional<std::array<std::uint32_t, 2>> partners_;
   std::uint64_t slice_ = 256;  // steps per slice, adapted while running
   std::uint64_t runs_ = 0;
+  std::uint64_t ids_ = 0;  // Frame::id of the last gas
   std::uint64_t handled_ = 0;
   std::string stop_;  // see Frame
   std::string message_;
