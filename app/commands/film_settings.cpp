@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "app/commands/flag_checks.h"
+#include "app/commands/flags.h"
 #include "engine/error.h"
 #include "engine/scene/text.h"
 #include "engine/whole_number.h"
@@ -218,10 +219,7 @@ void require_format(const RenderOptions& options, const FilmState& film) {
 
 void require_comparable(const RenderOptions& options) {
   if (options.compare.count() == 0) return;
-  if (options.compare.count() >= kMostCells) {
-    throw UserError({"", 0, 0}, "a film shows at most 4 gases beside each other",
-                    "give fewer scenes or --compare");
-  }
+  require_few_gases(options.compare, "film");
   const auto refuse = [](const char* flag, const char* problem) {
     throw UserError({flag, 0, 0}, problem, std::string("omit ") + flag + ", or give one scene");
   };

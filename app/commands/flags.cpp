@@ -2,6 +2,8 @@
 
 #include "app/commands/flag_checks.h"
 #include "app/runs/picture_scene.h"
+#include "engine/error.h"
+#include "render/output/cells.h"
 
 namespace clatter {
 
@@ -41,6 +43,29 @@ void add_progress_flag(CLI::App& command, CommonOptions& options) {
                                          {"json", ProgressStyle::Json},
                                          {"none", ProgressStyle::None}}))
       ->type_name("auto|json|none");
+}
+
+void add_compare_flags(CLI::App& command, CompareOptions& options, const std::string& shown_in) {
+  command
+      .add_option(
+          "scenes", options.scenes,
+          "Up to three more scenes. The " + shown_in + " shows all gases beside each other.")
+      ->type_name("SCENE");
+  command
+      .add_option("--compare", options.settings,
+                  "Show the scene also with another value of a key, in a further cell beside it. "
+                  "Repeatable, up to four cells. --set applies to all cells.")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+void require_few_gases(const CompareOptions& options, const std::string& shown_in) {
+  if (options.count() < static_cast<std::size_t>(kMostCells)) return;
+  throw UserError(
+      {"", 0, 0},
+      "a " + shown_in + " shows at most " + std::to_string(kMostCells) + " gases beside each other",
+      "give fewer scenes or --compare");
 }
 
 void add_backend_flag(CLI::App& command, Backend& backend) {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <string>
 
 #include "app/runs/accuracy_goal.h"
+#include "app/runs/compared_scenes.h"
 #include "app/runs/options.h"
 #include "app/system/batch_script.h"
 #include "render/context/context.h"
@@ -16,6 +18,12 @@ void add_scene_flags(CLI::App& command, CommonOptions& options);
 
 /// The scene flags, --until, --quiet.
 void add_common_flags(CLI::App& command, CommonOptions& options);
+
+/// Further SCENEs and --compare. `shown_in` is the noun of what shows the gases: film, window.
+void add_compare_flags(CLI::App& command, CompareOptions& options, const std::string& shown_in);
+
+/// Throws UserError if these are more gases than `shown_in` shows.
+void require_few_gases(const CompareOptions& options, const std::string& shown_in);
 
 /// --progress.
 void add_progress_flag(CLI::App& command, CommonOptions& options);

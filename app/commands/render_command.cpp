@@ -219,17 +219,7 @@ void add_render_command(CLI::App& program, int& exit_code) {
   auto options = std::make_shared<RenderOptions>();
   CLI::App* command = program.add_subcommand("render", "Film a scene, or draw one picture of it.");
   add_common_flags(*command, options->common);
-  command
-      ->add_option("scenes", options->compare.scenes,
-                   "Up to three more scenes. The film shows all gases beside each other.")
-      ->type_name("SCENE");
-  command
-      ->add_option("--compare", options->compare.settings,
-                   "Show the scene also with another value of a key, in a further cell beside it. "
-                   "Repeatable, up to four cells. --set applies to all cells.")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_compare_flags(*command, options->compare, "film");
   add_progress_flag(*command, options->common);
   add_checkpoint_flags(*command, options->checkpoints);
   command

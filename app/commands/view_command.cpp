@@ -16,6 +16,7 @@ struct ViewOptions {
   std::string size = "1280x800";
   Backend backend = Backend::Auto;
   std::string playlist;
+  CompareOptions compare;
   std::string script_log;
 };
 
@@ -28,6 +29,10 @@ int view(const ViewOptions& options) {
   window.seed = options.common.seed.value_or(1);
   if (options.playlist.empty()) {
     window.scene = load(options.common);
+    require_few_gases(options.compare, "window");
+    const auto gases =
+        compared_scenes({window.scene, window.seed}, options.compare, options.common, true);
+    for (std::size_t k = 1; k < gases.size(); ++k) window.beside.push_back(gases[k].scene);
   } else {
     window.playlist = load_playlist(options.playlist);
     window.scene = window.playlist.front().scene;
@@ -48,12 +53,14 @@ void add_view_command(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("view", "Explore a scene in a window.");
   add_scene_flags(*command, options->common);
   CLI::Option* scene = command->get_option("scene")->required(false)->capture_default_str();
+  add_compare_flags(*command, options->compare, "window");
   command
       ->add_option("--playlist", options->playlist,
                    "TOML file with a list of scenes for the keys [ and ].")
       ->type_name("FILE")
       ->excludes(scene)
-      ->excludes("--set");
+      ->excludes("--set")
+      ->excludes("--compare");
   command->add_option("--size", options->size, "Size of the window in pixels.")
       ->type_name("WIDTHxHEIGHT")
       ->capture_default_str();

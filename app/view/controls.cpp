@@ -233,7 +233,7 @@ void Controls::law(const Slider& slider, double value, double usual) {
   if (shown != value && (moved.let_go || due())) session_.set(text(shown));
   if (moved.let_go) {
     holding_.clear();
-    if (shown != before_) session_.remember({text(before_), text(shown)});
+    if (shown != before_) session_.remember({.before = text(before_), .after = text(shown)});
   }
   if (moved.reset) set(text(value), text(usual));
 }
@@ -274,7 +274,7 @@ void Controls::component(const Slider& slider, const VecX& vector, int axis, con
   if (shown != vector[axis] && (moved.let_go || (at_once && due()))) session_.set(text(shown));
   if (moved.let_go) {
     holding_.clear();
-    if (shown != before_) session_.remember({text(before_), text(shown)});
+    if (shown != before_) session_.remember({.before = text(before_), .after = text(shown)});
   }
   if (moved.reset) set(text(vector[axis]), text(usual[axis]));
 }

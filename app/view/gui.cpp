@@ -36,9 +36,10 @@ Gui::Gui(Host& host, const Gl& gl, WindowInput& input, EngineLink& engine, Scrip
       gallery_(gl, viewport_.renderer()),
       gui_(gl) {}
 
-void Gui::open(const Scene& scene, std::uint64_t seed, std::optional<double> until) {
+void Gui::open(const Scene& scene, std::uint64_t seed, std::optional<double> until,
+               const std::vector<Scene>& beside) {
   profile_axis_ = static_cast<int>(scene.measure.profile_axis);
-  session_.open(scene, seed, !until);
+  session_.open(scene, seed, !until, beside);
   if (until) session_.play_until(*until);
 }
 
@@ -71,7 +72,12 @@ void Gui::draw() {
   if (session_.update()) {
     // While a scene is being opened, the former gas stands still.
     if (!session_.frame().opening) viewport_.redraw();
-    history_.add(session_.frame());
+    const std::vector<const Frame*> gases = frames_of(session_.frame());
+    std::erase_if(histories_, [&](const auto& known) {
+      return std::ranges::find(gases, known.first, &Frame::id) == gases.end();
+    });
+    for (const Frame* gas : gases) histories_[gas->id].add(*gas);
+    name_gases();
   }
   if (title_ != session_.opened().title) {
     title_ = session_.opened().title;
@@ -100,7 +106,8 @@ void Gui::draw() {
       constexpr double kLeast = 0.8;  // smallest text of the picture, in text sizes of the panels
       // Lecture mode has title and caption in a strip of their own.
       const bool heading = !panels_.lecture || panels_.panels;
-      viewport_.draw(session_.frame(), shown_view(), size, letters(), kLeast * text_size_, heading);
+      viewport_.draw(session_.frame(), shown_view(), size, letters(), kLeast * text_size_, heading,
+                     titles_);
     }
     viewport_.show(static_cast<int>(area_.low.x * scale_),
                    static_cast<int>((whole.y - area_.high.y) * scale_));
@@ -192,7 +199,7 @@ void Gui::record() {
       screenshot();
       break;
     case Recording::SaveScene:
-      save_scene();
+      save_scenes();
       break;
     case Recording::RestoreScene:
       session_.restore();
@@ -254,7 +261,12 @@ void Gui::plots() {
       "laws, averages or trails change. The engine then does about twice the work",
       profile_names(profile_axis()), profiled_, 0);
   observable_plots(height);
-  for (const LivePlot& plot : plots_of(history_, session_.frame(), profiled(), theme)) {
+  const std::vector<PlottedGas> gases = plotted_gases();
+  if (gases.size() > 1) {
+    controls_.toggle("plots.differences", "Differences from A",
+                     "The curves of the other gases minus that of the first one", differences_);
+  }
+  for (const LivePlot& plot : plots_of(gases, profiled(), theme, differences_)) {
     draw_plot(plot, height);
     ImGui::Spacing();
   }
@@ -323,8 +335,8 @@ void Gui::use_viewport() {
   if (!viewport_.drawn()) return;
   const Frame& frame = session_.frame();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  const bool over = mouse.x >= area_.low.x && mouse.y >= area_.low.y && mouse.x < area_.high.x &&
-                    mouse.y < area_.high.y && !ImGui::GetIO().WantCaptureMouse;
+  const Area cell = viewport_.cell(area_.low, scale_);
+  const bool over = contains(cell, mouse) && !ImGui::GetIO().WantCaptureMouse;
   const WindowMap map = viewport_.map(area_.low, scale_);
   if (log_.on()) log_handles(map);
   mouse_tools_.use(session_, map, over);
@@ -343,15 +355,59 @@ void Gui::use_viewport() {
   // A zoom has changed the mapping.
   const WindowMap now = viewport_.map(area_.low, scale_);
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  list.PushClipRect(area_.low, area_.high);
+  list.PushClipRect(cell.low, cell.high);
   wall_grip_.mark(list, now, frame);
   viewport_.mark(list, frame, now);
   mouse_tools_.mark(list, frame, now);
   paint_ink(list, over);
   list.PopClipRect();
   if (const auto place = viewport_.picked_place(frame, now)) {
-    particle_label(frame, *viewport_.picked(), viewport_.follows(), *place, area_);
+    particle_label(frame, *viewport_.picked(), viewport_.follows(), *place, cell);
   }
+  use_cells();
+}
+
+// A click on the cell of another gas selects it. The selected one has a frame.
+void Gui::use_cells() {
+  const std::size_t gases = viewport_.cells();
+  if (gases == 1) return;
+  const bool clicks = ImGui::IsMouseClicked(0) && !ImGui::GetIO().WantCaptureMouse;
+  for (std::size_t gas = 0; gas < gases; ++gas) {
+    const Area cell = viewport_.cell(area_.low, scale_, gas);
+    if (clicks && contains(cell, ImGui::GetIO().MousePos)) session_.select(gas);
+    log_.widget(std::string("cell.") + static_cast<char>('a' + gas), cell.low.x, cell.low.y,
+                cell.high.x - cell.low.x, cell.high.y - cell.low.y);
+  }
+  const Area selected = viewport_.cell(area_.low, scale_);
+  ImGui::GetBackgroundDrawList()->AddRect(selected.low, selected.high, packed(accent_colour()));
+}
+
+// The titles of compared gases: a letter, and the keys in which they differ.
+void Gui::name_gases() {
+  const std::vector<const Frame*> gases = frames_of(session_.frame());
+  std::vector<std::shared_ptr<const Scene>> scenes;
+  for (const Frame* gas : gases) scenes.push_back(gas->scene);
+  if (scenes == titled_) return;
+  titled_ = scenes;
+  titles_.clear();
+  if (gases.size() == 1) return;
+  std::vector<ComparedScene> compared;
+  for (const Frame* gas : gases) {
+    compared.push_back({*gas->scene, gas->seed});
+    // Their laws at this time distinguish them. They have one view.
+    compared.back().scene.changes.clear();
+    compared.back().scene.view = {};
+  }
+  titles_ = cell_titles(compared);
+}
+
+std::vector<PlottedGas> Gui::plotted_gases() {
+  std::vector<PlottedGas> gases;
+  for (const Frame* gas : frames_of(session_.frame())) {
+    const std::string name = gas->gas < titles_.size() ? titles_[gas->gas].substr(0, 1) : "";
+    gases.push_back({&histories_[gas->id], gas, name});
+  }
+  return gases;
 }
 
 // Logs the longest handle of each wall.

@@ -2,11 +2,13 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "app/runs/compared_scenes.h"
 #include "app/system/program_job.h"
 #include "app/view/controls.h"
 #include "app/view/gallery.h"
@@ -17,6 +19,7 @@
 #include "app/view/mouse_tools.h"
 #include "app/view/panel_visibility.h"
 #include "app/view/playlist.h"
+#include "app/view/plots.h"
 #include "app/view/script_log.h"
 #include "app/view/session.h"
 #include "app/view/timeline.h"
@@ -33,8 +36,9 @@ class Gui {
  public:
   Gui(Host& host, const Gl& gl, WindowInput& input, EngineLink& engine, ScriptLog& log);
 
-  /// Starts a scene. With `until` it stops at that simulation time.
-  void open(const Scene& scene, std::uint64_t seed, std::optional<double> until = {});
+  /// Starts a scene, and those `beside` it in step. With `until` they stop at that simulation time.
+  void open(const Scene& scene, std::uint64_t seed, std::optional<double> until = {},
+            const std::vector<Scene>& beside = {});
   /// The scenes that follow each other by keys and buttons, instead of those of the gallery. The
   /// first one has been opened.
   void set_playlist(std::vector<PlaylistItem> playlist);
@@ -113,15 +117,19 @@ class Gui {
   Axis profile_axis() const;
   void viewport();
   void use_viewport();
+  void use_cells();
+  void name_gases();
+  std::vector<PlottedGas> plotted_gases();
   void log_handles(const WindowMap& map) const;
   void open_gallery_scene(const EmbeddedFile& scene);
   void open_file(const std::string& file);
   void fix_range();
   void face_preset(char key);
   void screenshot();
-  Scene recorded_beside(const std::string& file) const;
-  std::string save_scene();
-  std::vector<std::string> film_arguments(const std::string& scene) const;
+  Scene recorded_beside(const Frame& gas, const std::string& file) const;
+  std::vector<ComparedScene> recorded_beside(const std::string& file) const;
+  std::vector<std::string> save_scenes();
+  std::vector<std::string> film_arguments(const std::vector<std::string>& scenes) const;
   void copy_command();
   void copy_link();
   void film();
@@ -139,7 +147,10 @@ class Gui {
   WallGrip wall_grip_;
   MouseTools mouse_tools_;
   Gallery gallery_;
-  History history_;
+  std::map<std::uint64_t, History> histories_;        // of the gases, by Frame::id
+  std::vector<std::string> titles_;                   // of compared gases; empty: there is one
+  std::vector<std::shared_ptr<const Scene>> titled_;  // scenes that have these titles
+  bool differences_ = false;                          // plots show differences from the first gas
   Timeline timeline_;
   int profiled_ = 0;  // index into profile_names()
   int profile_axis_ = 0;

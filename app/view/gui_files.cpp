@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -52,7 +53,7 @@ void Gui::ask_about_changes() {
 void Gui::answer_question(Answer answer) {
   if (answer == Answer::None) return;
   const std::function<void()> action = std::exchange(delayed_, nullptr);
-  if (answer == Answer::Save) save_scene();
+  if (answer == Answer::Save) save_scenes();
   // A scene that could not be saved stays.
   const bool acts = answer == Answer::Discard || !session_.unsaved();
   log_.event("answer", {{"acts", acts}});
@@ -71,10 +72,10 @@ static std::string free_name(const std::string& extension) {
   }
 }
 
-// The scene on screen. A start state that no file of the user has is written beside `file`, as .csv.
-// Start states of the gallery are not files.
-Scene Gui::recorded_beside(const std::string& file) const {
-  Scene scene = session_.recorded();
+// The scene of a gas on screen. A start state that no file of the user has is written beside
+// `file`, as .csv. Start states of the gallery are not files.
+Scene Gui::recorded_beside(const Frame& gas, const std::string& file) const {
+  Scene scene = session_.recorded(gas);
   scene.view.theme = shown_view().theme;
   Start& start = scene.particles.start;
   const bool copied = !host_.has_user_files() && std::filesystem::exists(start.file);
@@ -87,12 +88,24 @@ Scene Gui::recorded_beside(const std::string& file) const {
   return scene;
 }
 
+// The scenes of all gases for a picture, whose start states have its name and a letter.
+std::vector<ComparedScene> Gui::recorded_beside(const std::string& file) const {
+  std::vector<ComparedScene> scenes;
+  for (const Frame* gas : frames_of(session_.frame())) {
+    std::filesystem::path own = file;
+    if (gas->gas > 0) {
+      own.replace_filename(own.stem().string() + '-' + static_cast<char>('a' + gas->gas));
+    }
+    scenes.push_back({recorded_beside(*gas, own.string()), gas->seed});
+  }
+  return scenes;
+}
+
 void Gui::screenshot() {
   if (!viewport_.drawn()) return;
   try {
     const std::string name = free_name(".png");
-    const Scene scene = recorded_beside(name);
-    write_png(name, viewport_.picture(), picture_texts(scene, session_.frame().seed));
+    write_png(name, viewport_.picture(), picture_texts(recorded_beside(name)));
     host_.deliver(name);
     session_.set_saved();
     log_.event("screenshot", {{"file", name}});
@@ -102,43 +115,41 @@ void Gui::screenshot() {
   }
 }
 
-std::string Gui::save_scene() {
-  if (!session_.frame().scene) return "";
+// Saves the scene of each gas. Returns the names of the files; none after an error.
+std::vector<std::string> Gui::save_scenes() {
+  if (!session_.frame().scene) return {};
   try {
-    const std::string name = free_name(".toml");
-    write_file(name, scene_to_toml(recorded_beside(name)));
-    host_.deliver(name);
+    std::vector<std::string> names;
+    for (const Frame* gas : frames_of(session_.frame())) {
+      names.push_back(free_name(".toml"));
+      write_file(names.back(), scene_to_toml(recorded_beside(*gas, names.back())));
+      host_.deliver(names.back());
+      log_.event("saved", {{"file", names.back()}});
+    }
     session_.set_saved();
-    log_.event("saved", {{"file", name}});
-    session_.tell("Saved: " + name);
-    return name;
+    session_.tell(fmt::format("Saved: {}", fmt::join(names, ", ")));
+    return names;
   } catch (const std::exception& error) {
     session_.tell(error.what());
   }
-  return "";
+  return {};
 }
 
-// The command line for a film from time 0 to the current time.
-std::vector<std::string> Gui::film_arguments(const std::string& scene) const {
+// The command line for a film of these scenes from time 0 to the current time.
+std::vector<std::string> Gui::film_arguments(const std::vector<std::string>& scenes) const {
   const Frame& frame = session_.frame();
-  return {"clatter",
-          "render",
-          scene,
-          "--seed",
-          std::to_string(frame.seed),
-          "--to",
-          fmt::format("{:.6g}", frame.snapshot.time),
-          "--out",
-          std::filesystem::path(scene).replace_extension(".mp4").string()};
+  std::vector<std::string> words = {"clatter", "render"};
+  words.insert(words.end(), scenes.begin(), scenes.end());
+  const std::string film = std::filesystem::path(scenes.front()).replace_extension(".mp4").string();
+  words.insert(words.end(), {"--seed", std::to_string(frame.seed), "--to",
+                             fmt::format("{:.6g}", frame.snapshot.time), "--out", film});
+  return words;
 }
 
 void Gui::copy_command() {
-  const std::string name = save_scene();
-  if (name.empty()) return;
-  std::string command;
-  for (const std::string& word : film_arguments(name)) {
-    command += (command.empty() ? "" : " ") + word;
-  }
+  const std::vector<std::string> scenes = save_scenes();
+  if (scenes.empty()) return;
+  const std::string command = fmt::format("{}", fmt::join(film_arguments(scenes), " "));
   host_.copy(command);
   log_.event("command", {{"line", command}});
   session_.tell("Copied: " + command);
@@ -147,7 +158,8 @@ void Gui::copy_command() {
 void Gui::copy_link() {
   if (!session_.frame().scene) return;
   try {
-    const std::string link = host_.link_to(link_of(session_.recorded(), session_.frame().seed));
+    const std::string link =
+        host_.link_to(link_of(session_.recorded(session_.frame()), session_.frame().seed));
     host_.copy(link);
     log_.event("link", {{"link", link}});
     session_.tell("The link is in the clipboard");
@@ -157,10 +169,10 @@ void Gui::copy_link() {
 }
 
 void Gui::film() {
-  const std::string name = save_scene();
-  if (name.empty()) return;
+  const std::vector<std::string> scenes = save_scenes();
+  if (scenes.empty()) return;
   try {
-    std::vector<std::string> arguments = film_arguments(name);
+    std::vector<std::string> arguments = film_arguments(scenes);
     const std::string file = arguments.back();
     arguments.insert(arguments.end(), {"--progress", "json"});
     film_.emplace(arguments);

@@ -36,6 +36,7 @@ void Gui::lecture(bool on) {
 // All controls of the panels, one below the other.
 void Gui::all_controls() {
   gas_panel(session_, controls_);
+  compare_panel(session_, controls_, titles_);
   if (mouse_tools_.panel(session_.scene(), controls_)) lift_pen();
   box_panel(session_, controls_);
   view_panel(session_, controls_);
@@ -119,7 +120,7 @@ void Gui::lecture_column() {
   const std::size_t profile =
       profiled() < profile_names(profile_axis()).size() - 1 ? profiled() : 0;
   const auto plot = lecture_plot(tools_.plot ? session_.view().lecture.plot : LecturePlot::None,
-                                 history_, session_.frame(), profile, panel_theme(shown_view()));
+                                 plotted_gases(), profile, panel_theme(shown_view()));
   const float column = sliders_height(names, 1);
   const bool beside =
       plot && kLeast * unit <= kMostShare * whole && column + (kLeastPlot + 3.0f) * unit <= tall;

@@ -87,6 +87,7 @@ void Gui::sheet() {
       break;
     case Sheet::Gas:
       gas_panel(session_, controls_);
+      compare_panel(session_, controls_, titles_);
       mouse_tools_.panel(session_.scene(), controls_);
       box_panel(session_, controls_);
       break;

@@ -81,6 +81,8 @@ void Gui::use_key(const KeyPress& press) {
   switch (press.letter) {
     case 'b':
       return session_.frame().backwards ? session_.play(true) : session_.play_backwards();
+    case 'c':
+      return session_.add_copy();
     case 'f':
       return viewport_.fit();
     case 'g':
@@ -91,6 +93,8 @@ void Gui::use_key(const KeyPress& press) {
       return lecture(!panels_.lecture);
     case 'm':
       return fix_range();
+    case 'n':
+      return session_.select((session_.gas() + 1) % session_.gases());
     case 'p':
       if (panels_.lecture && !panels_.panels) {
         tools_.plot = !tools_.plot;
@@ -130,7 +134,7 @@ void Gui::use_control_key(const KeyPress& press) {
     case 'y':
       return session_.redo();
     case 's':
-      save_scene();
+      save_scenes();
       return;
     case 'q':
       return host_.close();

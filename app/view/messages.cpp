@@ -136,7 +136,7 @@ struct KeyLine {
   bool spheres_only = false;
 };
 
-constexpr std::array<KeyLine, 30> kKeys = {{
+constexpr std::array<KeyLine, 31> kKeys = {{
     {"Space", "play or pause"},
     {"B", "play backwards, or forwards again"},
     {".  ,", "next frame, previous frame"},
@@ -152,6 +152,7 @@ constexpr std::array<KeyLine, 30> kKeys = {{
     {"Ctrl + Q", "quit"},
     {"Ctrl + S   F2", "save the scene with its changes; screenshot"},
     {"P", "plots"},
+    {"C   N", "compare: a copy of the gas beside it; the next gas"},
     {"T", "goal and suggestions of the scene"},
     {"M", "colour range of the particles: fixed or automatic"},
     {"Tab", "hide or show the panels"},

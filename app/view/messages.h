@@ -15,6 +15,12 @@ struct Area {
   ImVec2 low, high;  ///< upper left and lower right corner
 };
 
+/// Whether a place is in an area.
+inline bool contains(const Area& area, ImVec2 place) {
+  return place.x >= area.low.x && place.y >= area.low.y && place.x < area.high.x &&
+         place.y < area.high.y;
+}
+
 /// Draws a line with hints at the lower edge of the area.
 void hint_line(const std::string& text, const Area& area);
 /// Draws the progress of the scene that is being opened, in the middle of the area, with a button

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "app/view/controls.h"
 #include "app/view/session.h"
@@ -12,6 +14,8 @@ namespace clatter {
 
 /// Number of particles and their collision laws.
 void gas_panel(Session& session, Controls& controls);
+/// Gases in step with this one. `titles` are the names of all gases; empty: there is one.
+void compare_panel(Session& session, Controls& controls, const std::vector<std::string>& titles);
 /// Dimension, box, walls, gravity and bulk drive.
 void box_panel(Session& session, Controls& controls);
 /// Colours, heatmap, arrows and other layers of the picture.

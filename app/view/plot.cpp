@@ -213,9 +213,11 @@ std::array<PlotScale, 2> scales_of(const LivePlot& plot) {
 
 void draw_plot(const LivePlot& plot, float height) {
   const float unit = ImGui::GetFontSize();
-  ImGui::TextUnformatted(plot.title.c_str());
-  ImGui::SameLine();
   const float button = ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("CSV").x - unit;
+  ImGui::PushTextWrapPos(button);
+  ImGui::TextUnformatted(plot.title.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::SameLine();
   if (ImGui::GetCursorPosX() + ImGui::CalcTextSize(plot.y_label.c_str()).x < button) {
     ImGui::TextDisabled("%s", plot.y_label.c_str());
   }

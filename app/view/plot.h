@@ -18,6 +18,7 @@ struct Curve {
   bool as_point = false;            ///< draws only the last point, as a large dot
   std::vector<double> errors = {};  ///< [points] standard errors, drawn as a band; empty: none
   std::string help = {};            ///< tooltip of the name in the legend; empty: none
+  bool compared = false;            ///< stands for its gas where several gases are compared
 };
 
 /// Plot of a running simulation: curves over a common x axis.

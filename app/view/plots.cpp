@@ -64,6 +64,7 @@ LivePlot temperature_plot(const std::vector<Sample>& samples, const Scene& scene
   }
   plot.curves.push_back(
       over_time("T", plain, samples, [](const Sample& s) { return s.temperature.mean(); }));
+  plot.curves.back().compared = true;
   // A law that changed has no Haff curve from the start.
   if (const auto rate = haff_rate(scene); rate && *rate > 0.0 && scene.changes.empty()) {
     plot.log_x = plot.log_y = true;
@@ -92,6 +93,7 @@ LivePlot energy_plot(const std::vector<Sample>& samples, double count, Colour pl
       over_time("in", kOrange, samples, in),
       over_time("dissipated", kBlue, samples, [](const Sample& s) { return s.dissipated; }),
       over_time("difference", plain, samples, [&](const Sample& s) { return in(s)-s.dissipated; })};
+  plot.curves[1].compared = true;
   return plot;
 }
 
@@ -130,7 +132,7 @@ LivePlot profile_plot(const Profile& profile, std::size_t chosen, const Scene& s
   const int dimension = scene.dimension();
   const Label label = label_of(profile.fields[chosen], dimension);
   LivePlot plot{"Profile", along(profile.axis), false, false, {}, label.unit};
-  Curve curve{label.name, kBlue, {}};
+  Curve curve{.name = label.name, .colour = kBlue, .points = {}, .compared = true};
   for (std::size_t i = 0; i < profile.values[chosen].size(); ++i) {
     const Estimate& value = profile.values[chosen][i];
     curve.points.emplace_back(0.5 * (profile.edges[i] + profile.edges[i + 1]), value.mean);
@@ -175,6 +177,7 @@ LivePlot velocity_plot(const VelocityHistogram& velocities, int dimension, Colou
     plot.curves.push_back(
         {std::string("v_") + kAxisNames[axis], kAxisColours[axis], velocities.density(axis)});
   }
+  plot.curves.front().compared = true;
   plot.curves.push_back(std::move(gaussian));
   return plot;
 }
@@ -246,9 +249,82 @@ std::vector<LivePlot> plots_of(const History& history, const Frame& frame, std::
   return plots;
 }
 
-std::optional<LivePlot> lecture_plot(LecturePlot which, const History& history, const Frame& frame,
-                                     std::size_t profiled, const ThemeColours& theme) {
-  const std::vector<Sample>& samples = history.samples();
+// The value of a curve at x, between its points; absent: outside of them.
+static std::optional<double> value_at(const std::vector<Vec2>& points, double x) {
+  const auto after = std::ranges::lower_bound(points, x, {}, [](const Vec2& p) { return p.x(); });
+  if (after == points.end()) return std::nullopt;
+  if (after->x() == x) return after->y();
+  if (after == points.begin()) return std::nullopt;
+  const Vec2 &a = *(after - 1), &b = *after;
+  return std::lerp(a.y(), b.y(), (x - a.x()) / (b.x() - a.x()));
+}
+
+// A curve minus another one, where both have values. Their errors are independent.
+static Curve difference(const Curve& curve, const Curve& other) {
+  Curve result = curve;
+  result.points.clear();
+  result.errors.clear();
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    const double x = curve.points[i].x();
+    const auto value = value_at(other.points, x);
+    if (!value) continue;
+    result.points.emplace_back(x, curve.points[i].y() - *value);
+    if (curve.errors.empty() || other.errors.size() != curve.errors.size()) continue;
+    result.errors.push_back(std::hypot(curve.errors[i], other.errors[i]));
+  }
+  return result;
+}
+
+std::optional<LivePlot> compared_plot(const std::vector<LivePlot>& of_gases,
+                                      const std::vector<std::string>& names, bool differences) {
+  constexpr std::array<Colour, 4> kColours = {kBlue, kOrange, kGreen, kPurple};
+  LivePlot joined = of_gases.front();
+  joined.curves.clear();
+  for (std::size_t k = 0; k < of_gases.size(); ++k) {
+    const auto& curves = of_gases[k].curves;
+    const auto curve = std::ranges::find(curves, true, &Curve::compared);
+    if (curve == curves.end()) return std::nullopt;
+    if (k == 0) joined.title += ", " + curve->name;
+    joined.curves.push_back(*curve);
+    joined.curves.back().name = names[k];
+    joined.curves.back().colour = kColours[k % kColours.size()];
+    joined.span = std::max(joined.span, of_gases[k].span);
+  }
+  if (!differences) return joined;
+  const Curve first = joined.curves.front();
+  joined.curves.erase(joined.curves.begin());
+  joined.title += ", minus " + first.name;
+  joined.log_y = false;
+  for (Curve& curve : joined.curves) curve = difference(curve, first);
+  return joined;
+}
+
+std::vector<LivePlot> plots_of(const std::vector<PlottedGas>& gases, std::size_t profiled,
+                               const ThemeColours& theme, bool differences) {
+  std::vector<std::vector<LivePlot>> all;
+  std::vector<std::string> names;
+  for (const PlottedGas& gas : gases) {
+    all.push_back(plots_of(*gas.history, *gas.frame, profiled, theme));
+    names.push_back(gas.name);
+  }
+  if (all.size() == 1) return all.front();
+  std::vector<LivePlot> plots;
+  for (const LivePlot& first : all.front()) {
+    std::vector<LivePlot> of_gases;
+    for (const std::vector<LivePlot>& others : all) {
+      const auto same = std::ranges::find(others, first.title, &LivePlot::title);
+      if (same != others.end()) of_gases.push_back(*same);
+    }
+    if (of_gases.size() < all.size()) continue;
+    if (auto plot = compared_plot(of_gases, names, differences)) plots.push_back(std::move(*plot));
+  }
+  return plots;
+}
+
+static std::optional<LivePlot> lecture_plot_of(LecturePlot which, const PlottedGas& gas,
+                                               std::size_t profiled, const ThemeColours& theme) {
+  const std::vector<Sample>& samples = gas.history->samples();
+  const Frame& frame = *gas.frame;
   switch (which) {
     case LecturePlot::None:
       break;
@@ -257,12 +333,25 @@ std::optional<LivePlot> lecture_plot(LecturePlot which, const History& history, 
     case LecturePlot::Energy:
       return energy_plot(samples, static_cast<double>(frame.snapshot.count()), theme.text);
     case LecturePlot::Velocities:
-      return velocity_plot(history.velocities(), frame.scene->dimension(), theme.text);
+      return velocity_plot(gas.history->velocities(), frame.scene->dimension(), theme.text);
     case LecturePlot::Profile:
       if (!frame.profile || profiled >= frame.profile->fields.size()) break;
       return profile_plot(*frame.profile, profiled, *frame.scene);
   }
   return std::nullopt;
+}
+
+std::optional<LivePlot> lecture_plot(LecturePlot which, const std::vector<PlottedGas>& gases,
+                                     std::size_t profiled, const ThemeColours& theme) {
+  std::vector<LivePlot> of_gases;
+  std::vector<std::string> names;
+  for (const PlottedGas& gas : gases) {
+    auto plot = lecture_plot_of(which, gas, profiled, theme);
+    if (!plot) return std::nullopt;
+    of_gases.push_back(std::move(*plot));
+    names.push_back(gas.name);
+  }
+  return gases.size() == 1 ? of_gases.front() : compared_plot(of_gases, names, false);
 }
 
 }  // namespace clatter

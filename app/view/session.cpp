@@ -38,6 +38,16 @@ static nlohmann::json status(const Frame& frame) {
                          {"particles", frame.snapshot.count()},
                          {"flights", frame.snapshot.flights.size()},
                          {"restitution", frame.scene->particles.restitution}};
+  told["gas"] = frame.gas;
+  for (const Frame& gas : frame.beside) {
+    nlohmann::json beside = {{"gas", gas.gas},
+                             {"time", gas.snapshot.time},
+                             {"temperature", gas.snapshot.temperature},
+                             {"restitution", gas.scene->particles.restitution},
+                             {"changes", gas.scene->changes.size()}};
+    if (gas.state_hash) beside["hash"] = fmt::format("{:016x}", *gas.state_hash);
+    told["beside"].push_back(std::move(beside));
+  }
   if (frame.other_future) told["other_future"] = *frame.other_future;
   if (frame.loop) told["loop"] = *frame.loop;
   if (frame.state_hash) told["hash"] = fmt::format("{:016x}", *frame.state_hash);
@@ -73,6 +83,11 @@ bool Session::update() {
   return true;
 }
 
+static Scene without_changes(Scene scene) {
+  scene.changes.clear();
+  return scene;
+}
+
 // Takes the state of the engine, which drops refused settings.
 void Session::answered(const Frame& now) {
   plays_ = now.plays;
@@ -80,46 +95,106 @@ void Session::answered(const Frame& now) {
   speed_ = now.speed;
   seed_ = now.seed;
   if (before_ && before_->run == now.run) {
-    opened_ = before_->opened;
+    gases_ = before_->gases;
     view_ = before_->view;
     ++views_;
   }
   before_.reset();
-  if (!now.scene || (now.scene == seen_ && !wishes_)) return;
-  seen_ = now.scene;
+  if (!now.scene) return;
+  const std::vector<const Frame*> frames = frames_of(now);
+  gas_ = now.gas;
+  gases_.resize(frames.size());
+  seen_.resize(frames.size());
+  for (std::size_t k = 0; k < gases_.size(); ++k) {
+    if (frames[k]->scene == seen_[k] && !wishes_) continue;
+    seen_[k] = frames[k]->scene;
+    gases_[k].scene = *frames[k]->scene;
+    gases_[k].scene.particles.start = gases_[k].opened.particles.start;
+  }
   wishes_ = false;
-  scene_ = *now.scene;
-  scene_.particles.start = opened_.particles.start;
 }
 
-void Session::open(const Scene& scene, std::uint64_t seed, bool plays) {
+void Session::open(const Scene& scene, std::uint64_t seed, bool plays,
+                   const std::vector<Scene>& beside) {
   plays_ = plays;
   const OpenedScene now{scene, scene, seed};
   if (frame().run > 0) {
     if (!done_.empty() && done_.back().scenes.empty()) {
-      tell(fmt::format("Ctrl+Z returns to {} with its changes", opened_.title));
+      tell(fmt::format("Ctrl+Z returns to {} with its changes", opened().title));
     }
-    remember({.scenes = {{restarted(), opened_, seed_, unsaved_}, now}});
+    remember({.scenes = {present_scene(), now}});
   }
-  start(now, "open");
+  start(now, "open", beside);
 }
 
-// Sends a scene to the engine, whose refusal restores the present one.
-void Session::start(const OpenedScene& opened, const char* event) {
-  if (!before_ && frame().run > 0) before_ = Before{opened_, view_, frame().run};
+OpenedScene Session::present_scene() const {
+  return {restarted(selected()), opened(), seed_, unsaved_};
+}
+
+// Sends a scene and those beside it to the engine, whose refusal restores the present ones.
+void Session::start(const OpenedScene& opened, const char* event,
+                    const std::vector<Scene>& beside) {
+  if (!before_ && frame().run > 0) before_ = Before{gases_, view_, frame().run};
   wishes_ = true;
-  scene_ = opened.scene;
-  opened_ = opened.opened;
+  gases_ = {{opened.scene, opened.opened}};
+  for (const Scene& other : beside) gases_.push_back({other, other});
+  gas_ = 0;
   seed_ = opened.seed;
   unsaved_ = opened.unsaved;
-  view_ = scene_.view;
+  view_ = scene().view;
   speed_ = view_.speed;
   ++views_;
-  log_.event(event, {{"title", scene_.title},
+  log_.event(event, {{"title", scene().title},
                      {"seed", seed_},
-                     {"dimension", scene_.dimension()},
+                     {"dimension", scene().dimension()},
+                     {"gases", gases_.size()},
                      {"command", sent_ + 1}});
-  send(command::Open{scene_, seed_, plays_});
+  send_open(scene(), false);
+}
+
+// Opens a scene of the selected gas. The other gases start again with it.
+void Session::send_open(const Scene& scene, bool keeps_gas, const VecX& shift) {
+  command::Open open{scene, seed_, plays_, keeps_gas, shift};
+  open.gas = gas_;
+  for (std::size_t k = 0; k < gases_.size(); ++k) {
+    if (k == gas_) continue;
+    const Gas& other = gases_[k];
+    open.beside.push_back(
+        {keeps_gas ? as_shown(without_changes(other.scene)) : restarted(other), seed_});
+  }
+  send(std::move(open));
+}
+
+void Session::add_copy() {
+  if (frame().run == 0) return;
+  if (gases_.size() == kMostGases) {
+    return tell(fmt::format("No more than {} gases run in step; remove one first", kMostGases));
+  }
+  gases_.push_back(selected());
+  log_.event("add_copy", {{"of", gas_}, {"command", sent_ + 1}});
+  send(command::CopyGas{});
+  select(gases_.size() - 1);
+}
+
+void Session::remove_gas() {
+  if (gases_.size() == 1) return;
+  log_.event("remove_gas", {{"gas", gas_}, {"command", sent_ + 1}});
+  send(command::RemoveGas{gas_});
+  for (std::vector<Edit>* edits : {&done_, &undone_}) {
+    std::erase_if(*edits, [&](const Edit& edit) { return edit.gas == gas_; });
+    for (Edit& edit : *edits) edit.gas -= edit.gas > gas_ ? 1 : 0;
+  }
+  gases_.erase(gases_.begin() + static_cast<std::ptrdiff_t>(gas_));
+  seen_.clear();
+  gas_ -= gas_ > 0 ? 1 : 0;
+}
+
+void Session::select(std::size_t gas) {
+  if (gas == gas_ || gas >= gases_.size()) return;
+  gas_ = gas;
+  picked_.reset();
+  log_.event("select", {{"gas", gas_}, {"command", sent_ + 1}});
+  send(command::SelectGas{gas_});
 }
 
 void Session::cancel_open() {
@@ -127,32 +202,35 @@ void Session::cancel_open() {
   send(command::CancelOpen{});
 }
 
-Scene Session::recorded() const {
-  Scene scene = *frame().started;
-  scene.changes = frame().scene->changes;
-  scene.view = view_;
+// A scene with the view and the speed on screen. A view of spheres does not fit disks.
+Scene Session::as_shown(Scene scene) const {
+  if (scene.dimension() == this->scene().dimension()) scene.view = view_;
   scene.view.speed = speed_;
+  return scene;
+}
+
+Scene Session::recorded(const Frame& gas) const {
+  Scene scene = *gas.started;
+  scene.changes = gas.scene->changes;
+  scene = as_shown(std::move(scene));
   // Roughness may have been switched on later: the scene at the start has no spins to show.
   if (!scene.spins()) scene.view.hide_spins();
   return scene;
 }
 
-Scene Session::restarted() const {
-  Scene scene = scene_;
-  scene.changes = opened_.changes;
-  if (!scene.changes.empty()) scene = opened_;  // scheduled changes start from the opened laws
-  scene.view = view_;
-  scene.view.speed = speed_;
-  return scene;
+Scene Session::restarted(const Gas& gas) const {
+  // Scheduled changes start from the opened laws.
+  if (!gas.opened.changes.empty()) return as_shown(gas.opened);
+  return as_shown(without_changes(gas.scene));
 }
 
 void Session::restart() {
   log_.event("reset", {{"seed", seed_}, {"command", sent_ + 1}});
-  send(command::Open{restarted(), seed_, plays_});
+  send_open(restarted(selected()), false);
 }
 
 void Session::switch_dimension() {
-  const OpenedScene before{restarted(), opened_, seed_, unsaved_};
+  const OpenedScene before = present_scene();
   try {
     const auto [scene, removed] = change_dimension(before.scene, 5 - before.scene.dimension());
     if (!removed.empty()) {
@@ -168,12 +246,8 @@ void Session::switch_dimension() {
 }
 
 void Session::refit(const VecX& shift) {
-  Scene scene = scene_;
-  scene.changes.clear();
-  scene.view = view_;
-  scene.view.speed = speed_;
   log_.event("refit", {{"command", sent_ + 1}});
-  send(command::Open{scene, seed_, plays_, true, shift});
+  send_open(as_shown(without_changes(scene())), true, shift);
 }
 
 void Session::restart_with_new_seed() {
@@ -276,14 +350,14 @@ void Session::set_speed(double speed) {
 
 void Session::set(const std::vector<Override>& settings, const VecX& shift) {
   try {
-    scene_ = with_settings(scene_, settings);
+    selected().scene = with_settings(scene(), settings);
     wishes_ = unsaved_ = true;
   } catch (const UserError& error) {
     tell(error.problem() + "; " + error.advice());
     return;
   }
   View view = view_;
-  if (!scene_.spins() && view.hide_spins()) set_view(view);
+  if (!scene().spins() && view.hide_spins()) set_view(view);
   nlohmann::json keys;
   for (const Override& setting : settings) keys[setting.key] = setting.value;
   log_.event("set", {{"keys", keys}, {"command", sent_ + 1}});
@@ -317,7 +391,7 @@ static nlohmann::json keys_of(const Nudge& nudge) {
 
 void Session::nudge(const Nudge& nudge) {
   try {
-    check_nudge(nudge, scene_);
+    check_nudge(nudge, scene());
   } catch (const UserError& error) {
     tell(error.problem() + "; " + error.advice());
     return;
@@ -331,6 +405,7 @@ void Session::nudge(const Nudge& nudge) {
 void Session::remember(Edit edit) {
   const bool changes = !edit.after.empty() || !edit.nudges.empty();
   if (changes && std::exchange(forked_, false)) edit.fork = forks_;
+  edit.gas = gas_;
   done_.push_back(std::move(edit));
   undone_.clear();
 }
@@ -384,14 +459,26 @@ void Session::apply(Edit& edit, bool again) {
   if (edit.views) set_view((*edit.views)[again ? 1 : 0]);
 }
 
-// Whether the last entry has nudges that no frame has yet.
-bool Session::awaits_nudges(const std::vector<Edit>& edits) const {
-  return !edits.back().nudges.empty() && frame().handled != sent_;
+// Whether the last entry must wait: it has nudges that no frame has yet, or another gas is
+// selected, which is selected now.
+bool Session::must_wait(const std::vector<Edit>& edits) {
+  const Edit& last = edits.back();
+  if (last.scenes.empty() && last.gas != gas_) {
+    select(last.gas);
+    return true;
+  }
+  return !last.nudges.empty() && frame().handled != sent_;
+}
+
+// Removes the last entries of gases that no longer exist, since a scene was opened.
+void Session::forget_missing(std::vector<Edit>& edits) const {
+  while (!edits.empty() && edits.back().gas >= gases_.size()) edits.pop_back();
 }
 
 void Session::undo() {
+  forget_missing(done_);
   if (done_.empty()) return;
-  if (awaits_nudges(done_)) {
+  if (must_wait(done_)) {
     postponed_ = &Session::undo;
     return;
   }
@@ -402,8 +489,9 @@ void Session::undo() {
 }
 
 void Session::redo() {
+  forget_missing(undone_);
   if (undone_.empty()) return;
-  if (awaits_nudges(undone_)) {
+  if (must_wait(undone_)) {
     postponed_ = &Session::redo;
     return;
   }

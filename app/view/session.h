@@ -20,6 +20,7 @@ struct OpenedScene {
 
 /// One entry of the undo history.
 struct Edit {
+  std::size_t gas = 0;                ///< number of the changed gas
   std::vector<Override> before = {};  ///< keys that undo the change
   std::vector<Override> after = {};   ///< keys that make the change
   VecX shift = {};  ///< shift of the particles with `after`; undo shifts them back; empty: none
@@ -34,6 +35,9 @@ struct Edit {
 
 /// The simulation in the window: its scene, its view and the undo history. It sends commands to the
 /// engine and never waits for the engine.
+///
+/// Up to kMostGases gases are compared. They run in step with the same seed, view and speed. One of
+/// them is selected: scene(), opened() and all changes are those of the selected gas.
 class Session {
  public:
   Session(EngineLink& engine, ScriptLog& log) : engine_(engine), log_(log) {}
@@ -43,24 +47,36 @@ class Session {
   /// The newest frame. Its run is 0 before the first frame.
   const Frame& frame() const { return engine_.frames().front(); }
   /// The scene with the latest settings, as the panels show it.
-  const Scene& scene() const { return scene_; }
+  const Scene& scene() const { return selected().scene; }
   /// The scene as it was opened.
-  const Scene& opened() const { return opened_; }
+  const Scene& opened() const { return selected().opened; }
   /// The current view.
   const View& view() const { return view_; }
-  /// The scene that reproduces the run: its start, with all later changes. Requires a frame.
-  Scene recorded() const;
+  /// The scene that reproduces the run of a gas: its start, with all later changes. Requires a
+  /// frame of this gas.
+  Scene recorded(const Frame& gas) const;
 
-  /// Opens and starts a scene. Undo starts the former scene with its changes. Without `plays` the
-  /// scene is paused.
-  void open(const Scene& scene, std::uint64_t seed, bool plays = true);
+  /// Opens and starts a scene, and those `beside` it in step, which get its view. Undo starts the
+  /// former scene with its changes, without a comparison. Without `plays` the scene is paused.
+  void open(const Scene& scene, std::uint64_t seed, bool plays = true,
+            const std::vector<Scene>& beside = {});
+  /// Number of gases.
+  std::size_t gases() const { return gases_.size(); }
+  /// Number of the selected gas.
+  std::size_t gas() const { return gas_; }
+  /// Adds a copy of the selected gas as the last one, and selects it.
+  void add_copy();
+  /// Removes the selected gas, and its entries of the undo history. One gas remains.
+  void remove_gas();
+  /// Selects a gas.
+  void select(std::size_t gas);
   /// Abandons the scene that is being opened. The former gas remains.
   void cancel_open();
-  /// Restarts the scene with the current laws. A scene with scheduled changes restarts with the
+  /// Restarts all gases with their current laws. A scene with scheduled changes restarts with the
   /// laws it was opened with.
   void restart();
   /// Starts the scene as it was opened. Undo starts it with its changes.
-  void restore() { open(opened_, seed_, plays_); }
+  void restore() { open(Scene(opened()), seed_, plays_); }
   /// Calls restart() with the next seed.
   void restart_with_new_seed();
   /// Starts the scene in the other dimension, with disks or spheres, see change_dimension(). Undo
@@ -135,9 +151,14 @@ class Session {
  private:
   using Clock = std::chrono::steady_clock;
 
+  // A gas: its scene with the latest settings, and as it was opened.
+  struct Gas {
+    Scene scene;
+    Scene opened;
+  };
   // State to restore if the engine refuses the scene being opened.
   struct Before {
-    Scene opened;
+    std::vector<Gas> gases;
     View view;
     std::uint64_t run = 0;
   };
@@ -146,18 +167,24 @@ class Session {
   void send(Command command);
   void apply(Edit& edit, bool again);
   void note_fork();
-  bool awaits_nudges(const std::vector<Edit>& edits) const;
+  bool must_wait(const std::vector<Edit>& edits);
+  void forget_missing(std::vector<Edit>& edits) const;
   void exchange_nudges(Edit& edit, bool again);
   void refit(const VecX& shift);
   void send_exchange();
   double present() const;
-  void start(const OpenedScene& opened, const char* event);
-  Scene restarted() const;
+  void start(const OpenedScene& opened, const char* event, const std::vector<Scene>& beside = {});
+  void send_open(const Scene& scene, bool keeps_gas, const VecX& shift = {});
+  Scene as_shown(Scene scene) const;
+  Scene restarted(const Gas& gas) const;
+  OpenedScene present_scene() const;
+  const Gas& selected() const { return gases_[gas_]; }
+  Gas& selected() { return gases_[gas_]; }
 
   EngineLink& engine_;
   ScriptLog& log_;
-  Scene scene_;
-  Scene opened_;
+  std::vector<Gas> gases_{1};
+  std::size_t gas_ = 0;  // the selected one
   View view_;
   std::uint64_t seed_ = 1;
   bool plays_ = true;
@@ -168,13 +195,13 @@ class Session {
   std::uint64_t sent_ = 0;
   std::uint64_t handled_ = 0;
   std::uint64_t views_ = 0;
-  std::shared_ptr<const Scene> seen_;
-  bool wishes_ = false;           // scene_ has settings that the engine may refuse
+  std::vector<std::shared_ptr<const Scene>> seen_;  // of the gases
+  bool wishes_ = false;           // a scene has settings that the engine may refuse
   std::optional<Before> before_;  // state before the scene being opened; absent: none
   std::uint64_t messages_ = 0;    // Frame::messages of the last frame
   std::vector<Edit> done_;
   std::vector<Edit> undone_;
-  void (Session::*postponed_)() = nullptr;  // undo() or redo() of nudges not yet in a frame
+  void (Session::*postponed_)() = nullptr;  // undo() or redo() that waits for the engine
   std::uint64_t forks_ = 0;  // changes in the past; the last one has the present two futures
   bool unsaved_ = false;     // changes by hand that no file has
   bool forked_ = false;      // since the last entry of the undo history

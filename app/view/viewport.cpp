@@ -6,46 +6,129 @@
 
 #include "app/view/direction.h"
 #include "app/view/style.h"
+#include "render/output/cells.h"
 #include "render/picking.h"
 
 namespace clatter {
 
-void Viewport::draw(const Frame& frame, const View& view, Size size, double letters, double least,
-                    bool heading) {
-  if (!canvas_ || canvas_->size().width != size.width || canvas_->size().height != size.height) {
-    canvas_.emplace(*gl_, size);
-    stale_ = true;
+static bool are_equal(const VecX& a, const VecX& b) {
+  return a.size() == b.size() && a == b;
+}
+
+// Makes a picture for each gas. A new one has the camera of the selected gas.
+void Viewport::resize(Size size, std::size_t gases) {
+  if (size.width == size_.width && size.height == size_.height && gases == pictures_.size()) return;
+  std::vector<Picture> former = std::exchange(pictures_, {});
+  const auto count = static_cast<int>(gases);
+  for (int number = 0; number < count; ++number) {
+    pictures_.push_back({Canvas(*gl_, picture_cell(size, number, count).size)});
+    if (former.empty()) continue;
+    const auto own = static_cast<std::size_t>(number);
+    const Picture& like = former[own < former.size() ? own : std::min(gas_, former.size() - 1)];
+    pictures_.back().camera = like.camera;
+    pictures_.back().box = like.box;
   }
-  const Snapshot& gas = frame.snapshot;
+  size_ = size;
+  stale_ = true;
+}
+
+void Viewport::draw(const Frame& frame, const View& view, Size size, double letters, double least,
+                    bool heading, const std::vector<std::string>& titles) {
+  const std::vector<const Frame*> gases = frames_of(frame);
+  resize(size, gases.size());
   if (frame.run != run_) {
     run_ = frame.run;
     fits_ = true;
     let_go();
   }
-  if (!stale_) return;
-  stale_ = false;
-  const OverlayText text{heading ? frame.scene->title : "",
-                         heading ? frame.scene->caption : "",
-                         0.0,
-                         letters,
-                         least,
-                         frame.speed};
-  const Legends legends = ranges_.legends(gas, view);
-  if (fits_) camera_ = renderer_.fit(gas, size, view, text, legends);
-  if (gas.box.size() == 3) {
-    camera_.orbit.azimuth = view.azimuth;
-    camera_.orbit.elevation = view.elevation;
-    camera_.orbit.view_angle = view.view_angle;
+  if (std::exchange(gas_, frame.gas) != frame.gas) {
+    let_go();
+    stale_ = true;
   }
-  if (follows_ && *picked_ < gas.count()) {
+  if (!std::exchange(stale_, false)) return;
+  OverlayText text{.title = "",
+                   .caption = "",
+                   .letters = letters,
+                   .least = least,
+                   .speed = frame.speed,
+                   .beside = titles};
+  if (heading && titles.empty()) {
+    text.title = frame.scene->title;
+    text.caption = frame.scene->caption;
+  }
+  std::array<Legends, 2> legends;
+  for (const std::size_t dimension : {2u, 3u}) {
+    std::vector<const Snapshot*> alike;
+    for (const Frame* gas : gases) {
+      if (gas->snapshot.box.size() == static_cast<Eigen::Index>(dimension)) {
+        alike.push_back(&gas->snapshot);
+      }
+    }
+    if (!alike.empty()) legends[dimension - 2] = ranges_[dimension - 2].legends(alike, view);
+  }
+  // The selected gas first, because the others may have its camera.
+  std::vector<const Frame*> order = gases;
+  std::swap(order.front(), order[frame.gas]);
+  for (const Frame* gas : order) {
+    if (!titles.empty()) text.title = titles[gas->gas];
+    const auto dimension = static_cast<std::size_t>(gas->snapshot.box.size());
+    draw_gas(pictures_[gas->gas], *gas, view, text, legends[dimension - 2]);
+  }
+}
+
+void Viewport::draw_gas(Picture& picture, const Frame& frame, const View& view,
+                        const OverlayText& text, const Legends& legends) {
+  const Snapshot& gas = frame.snapshot;
+  const Size size = picture.canvas.size();
+  const bool selected = frame.gas == gas_;
+  const bool resized = !are_equal(std::exchange(picture.box, gas.box), gas.box);
+  if (fits_) {
+    picture.camera = renderer_.fit(gas, size, view, text, legends);
+  } else if (!selected && are_equal(gas.box, pictures_[gas_].box)) {
+    picture.camera = camera();
+  } else if (!selected && resized) {
+    picture.camera = renderer_.fit(gas, size, view, text, legends);
+  }
+  if (gas.box.size() == 3) {
+    picture.camera.orbit.azimuth = view.azimuth;
+    picture.camera.orbit.elevation = view.elevation;
+    picture.camera.orbit.view_angle = view.view_angle;
+  }
+  if (selected && follows_ && *picked_ < gas.count()) {
     aim(in_space(gas.positions.col(static_cast<Eigen::Index>(*picked_))));
   }
-  canvas_->bind();
-  renderer_.draw(gas, camera_, size, view, text, legends);
+  picture.canvas.bind();
+  renderer_.draw(gas, picture.camera, size, view, text, legends);
 }
 
 void Viewport::show(int x, int y) const {
-  if (canvas_) canvas_->copy_to(0, x, y);
+  const auto count = static_cast<int>(pictures_.size());
+  for (int number = 0; number < count; ++number) {
+    const PictureCell cell = picture_cell(size_, number, count);
+    const int bottom = size_.height - cell.top - cell.size.height;
+    pictures_[static_cast<std::size_t>(number)].canvas.copy_to(0, x + cell.left, y + bottom);
+  }
+}
+
+Image Viewport::picture() const {
+  std::vector<Image> cells;
+  for (const Picture& picture : pictures_) cells.push_back(picture.canvas.read());
+  return joined_cells(size_, cells);
+}
+
+WindowMap Viewport::map(ImVec2 corner, float scale) const {
+  const Picture& picture = pictures_[gas_];
+  return {picture.camera, picture.canvas.size(), cell(corner, scale).low, scale};
+}
+
+Area Viewport::cell(ImVec2 corner, float scale, std::size_t gas) const {
+  const auto [left, top, size] =
+      picture_cell(size_, static_cast<int>(gas), static_cast<int>(pictures_.size()));
+  const auto place = [&](int x, int y) {
+    return ImVec2(corner.x + static_cast<float>(x) / scale,
+                  corner.y + static_cast<float>(y) / scale);
+  };
+  return {place(left, top), place(left + size.width, top + size.height)};
 }
 
 void Viewport::fit() {
@@ -62,8 +145,8 @@ bool Viewport::let_go() {
 }
 
 void Viewport::aim(const Vec3& centre) {
-  camera_.centre = centre.head<2>();
-  camera_.orbit.z = centre.z();
+  camera().centre = centre.head<2>();
+  camera().orbit.z = centre.z();
 }
 
 std::optional<ImVec2> Viewport::picked_place(const Frame& frame, const WindowMap& map) const {
@@ -84,9 +167,9 @@ void Viewport::zoom(const Frame& frame, const WindowMap& map) {
   const Vec3 point = map.world(ImGui::GetIO().MousePos, centre);
   const double factor = std::pow(0.85, ImGui::GetIO().MouseWheel);
   const double wide = frame.snapshot.box.maxCoeff() * 10.0;
-  const double width = std::clamp(camera_.width * factor, 2.0, std::max(20.0, wide));
-  aim(point + (centre - point) * (width / camera_.width));
-  camera_.width = width;
+  const double width = std::clamp(camera().width * factor, 2.0, std::max(20.0, wide));
+  aim(point + (centre - point) * (width / camera().width));
+  camera().width = width;
   fits_ = false;
   stale_ = true;
 }

@@ -2,8 +2,12 @@
 
 #include <imgui.h>
 
+#include <array>
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "app/view/messages.h"
 #include "app/view/session.h"
 #include "app/view/window_map.h"
 #include "render/gl/canvas.h"
@@ -11,28 +15,34 @@
 
 namespace clatter {
 
-/// The picture of the gas in the window, drawn as in films, and its mouse actions.
+/// The picture of the gas in the window, drawn as in films, and its mouse actions. Gases that are
+/// compared have cells beside each other. Their colour ranges are the same. Those with equal boxes
+/// are also seen by the same camera. The mouse acts on the selected gas.
 class Viewport {
  public:
   explicit Viewport(const Gl& gl) : gl_(&gl), renderer_(gl) {}
 
   /// Draws a frame off screen at `size` pixels if anything has changed. `letters` scales the text
   /// relative to films, and `least` is its smallest size in pixels. With `heading` the picture has
-  /// title and caption.
+  /// title and caption. `titles` are the headings of the cells of compared gases; empty: one gas.
   void draw(const Frame& frame, const View& view, Size size, double letters, double least,
-            bool heading);
+            bool heading, const std::vector<std::string>& titles);
   /// Copies the picture to the window. (x, y) is its lower left corner in pixels of the window.
   void show(int x, int y) const;
   /// Size of the picture, pixels. Requires drawn().
-  Size size() const { return canvas_->size(); }
+  Size size() const { return size_; }
   /// The current picture. Requires drawn().
-  Image picture() const { return canvas_->read(); }
+  Image picture() const;
 
-  /// The mapping between the world and the window, if the viewport has its upper left corner at
-  /// `corner` and `scale` pixels per window unit. Requires drawn().
-  WindowMap map(ImVec2 corner, float scale) const {
-    return {camera_, canvas_->size(), corner, scale};
-  }
+  /// The mapping between the world of the selected gas and the window, if the viewport has its
+  /// upper left corner at `corner` and `scale` pixels per window unit. Requires drawn().
+  WindowMap map(ImVec2 corner, float scale) const;
+  /// Number of cells in the current picture. Requires drawn().
+  std::size_t cells() const { return pictures_.size(); }
+  /// The place in the window of the cell of a gas, or of the selected one. `corner` and `scale` are
+  /// as for map(). Requires drawn().
+  Area cell(ImVec2 corner, float scale, std::size_t gas) const;
+  Area cell(ImVec2 corner, float scale) const { return cell(corner, scale, gas_); }  ///< the same
   /// Pans, zooms, turns spheres and picks particles with the mouse. `over`: the mouse is over the
   /// viewport. `presses`: presses of the left button are for the viewport. Returns true if the
   /// angles of the view changed.
@@ -51,7 +61,7 @@ class Viewport {
   /// Deselects the picked particle. Returns true if there was one.
   bool let_go();
   /// True after the first picture.
-  bool drawn() const { return canvas_.has_value(); }
+  bool drawn() const { return !pictures_.empty(); }
   /// Draws the pictures. It may also draw other pictures of the window.
   Renderer& renderer() { return renderer_; }
   /// Makes the next call of draw() redraw the picture.
@@ -66,6 +76,17 @@ class Viewport {
     bool dragged = false;  // the mouse has moved since
   };
 
+  // The cell of a gas.
+  struct Picture {
+    Canvas canvas;
+    Camera camera = {};
+    VecX box = {};  // of the gas when it was drawn last
+  };
+
+  void resize(Size size, std::size_t gases);
+  void draw_gas(Picture& picture, const Frame& frame, const View& view, const OverlayText& text,
+                const Legends& legends);
+  Camera& camera() { return pictures_[gas_].camera; }
   void zoom(const Frame& frame, const WindowMap& map);
   void pan(const WindowMap& map);
   bool drag_or_click(const Frame& frame, View& view, const WindowMap& map, bool over);
@@ -73,9 +94,10 @@ class Viewport {
 
   const Gl* gl_;
   Renderer renderer_;
-  AutoRanges ranges_;
-  std::optional<Canvas> canvas_;
-  Camera camera_;
+  std::array<AutoRanges, 2> ranges_;  // of disks and of spheres
+  Size size_;
+  std::vector<Picture> pictures_;  // of the gases in order; empty: nothing is drawn
+  std::size_t gas_ = 0;            // the selected one
   bool fits_ = true;
   bool stale_ = true;
   std::uint64_t run_ = 0;

@@ -106,7 +106,7 @@ static void show(const WindowOptions& options) {
   {
     Gui gui(desktop, context.gl(), input, worker, log);
     gui.set_playlist(options.playlist);
-    gui.open(options.scene, options.seed, options.until);
+    gui.open(options.scene, options.seed, options.until, options.beside);
     // Panels need several pictures after an event to settle.
     constexpr int kSettle = 4;
     for (int left = kSettle;; left = left > 0 ? left - 1 : kSettle) {

@@ -100,7 +100,8 @@ TEST_CASE("Lecture: each name of a plot is that of its plot") {
   frame.scene = std::make_shared<const Scene>(load_scene("vibrated"));
   frame.snapshot.box = Vec2(20.0, 25.0);
   const auto title = [&](LecturePlot which) {
-    const auto plot = lecture_plot(which, History(), frame, 0, kDarkTheme);
+    const History history;
+    const auto plot = lecture_plot(which, {{&history, &frame, ""}}, 0, kDarkTheme);
     return plot ? plot->title : "";
   };
   CHECK(title(LecturePlot::None).empty());
@@ -258,7 +259,7 @@ TEST_CASE("Window: the tools of lecture mode: timeline, stopwatch, pen, plot and
 }
 
 TEST_CASE("Window: its size scales all texts at once, within the room of lecture mode") {
-  const GuiDriver driver("", "1280x1700");
+  const GuiDriver driver("", "1280x1800");
   const auto height = [&](const char* widget, std::size_t told) {
     return driver.place(widget, told)[3];
   };

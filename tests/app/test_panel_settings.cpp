@@ -184,13 +184,16 @@ TEST_CASE("Panels: colours and fields of spins go with the spins, and come back 
   CHECK(driver.session().view().colour_by == ColourBy::Speed);
   CHECK_FALSE(driver.session().view().field);
   // The scene that would be saved is complete.
-  CHECK(parse_scene(scene_to_toml(driver.session().recorded()), "").changes.size() == 1);
+  const auto recorded_scene = [](const Session& of) {
+    return parse_scene(scene_to_toml(of.recorded(of.frame())), "");
+  };
+  CHECK(recorded_scene(driver.session()).changes.size() == 1);
   session->undo();
   driver.wait_for([&](const Frame& frame) { return !smooth(frame); });
   CHECK(driver.session().message().empty());
   CHECK(driver.session().view().colour_by == ColourBy::Spin);
   CHECK(driver.session().view().field == Field(Quantity::Spin));
-  CHECK(parse_scene(scene_to_toml(driver.session().recorded()), "").changes.size() == 2);
+  CHECK(recorded_scene(driver.session()).changes.size() == 2);
 }
 
 TEST_CASE("Panels: undo after another scene was opened returns to the changed scene") {

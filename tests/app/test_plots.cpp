@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <utility>
@@ -735,6 +736,65 @@ TEST_CASE("Plots: all axes are finite for a gas without motion, or one that come
       }
     }
   }
+}
+
+TEST_CASE("Plots: compared gases have one curve each, or its difference from the first gas") {
+  const TwoFrames first;
+  TwoFrames second;
+  History other;
+  second.begin.tally.temperature_integral = Vec2(2.0, 3.0);
+  second.end.tally.temperature_integral = Vec2(16.0, 21.0);
+  second.end.tally.dissipated = 50.0;
+  for (const Frame& frame : {second.begin, second.end}) other.add(frame);
+  const std::vector<PlottedGas> gases = {{&first.history, &first.end, "A"},
+                                         {&other, &second.end, "B"}};
+  std::map<std::string, LivePlot> plots;
+  for (const bool differences : {false, true}) {
+    for (const LivePlot& plot : plots_of(gases, 0, kDarkTheme, differences)) {
+      plots[plot.title] = plot;
+      check_finite(plot);
+    }
+  }
+  CHECK(plots.size() == 6);
+  // Mean temperature (6 + 10) / 4 and (14 + 18) / 4 over two time units, until time 12.
+  const LivePlot& both = plots.at("Temperature, T");
+  CHECK(both.curves.size() == 2);
+  check_last(both, "A", 11.0, 4.0);
+  check_last(both, "B", 11.0, 8.0);
+  const LivePlot& change = plots.at("Temperature, T, minus A");
+  CHECK(change.curves.size() == 1);
+  check_last(change, "B", 11.0, 4.0);
+  check_last(plots.at("Energy per time, dissipated"), "B", 11.0, 22.0);
+  check_last(plots.at("Energy per time, dissipated, minus A"), "B", 11.0, 10.0);
+  CHECK(curve_of(plots.at("Velocities, v_x"), "A").points.size() == VelocityHistogram::kClasses);
+  for (const Vec2& point : plots.at("Velocities, v_x, minus A").curves[0].points) {
+    CHECK(point.y() == 0.0);
+  }
+  const auto lecture = lecture_plot(LecturePlot::Energy, gases, 0, kDarkTheme);
+  REQUIRE(lecture);
+  CHECK(lecture->title == "Energy per time, dissipated");
+}
+
+TEST_CASE("Plots: a difference is taken between the points, with the errors of both curves") {
+  LivePlot first{"P", "x", false, true, {}}, second = first;
+  first.curves = {{.name = "f",
+                   .colour = {},
+                   .points = {{0.0, 1.0}, {2.0, 5.0}},
+                   .errors = {0.3, 0.3},
+                   .compared = true}};
+  second.curves = {{.name = "f",
+                    .colour = {},
+                    .points = {{1.0, 10.0}, {3.0, 10.0}},
+                    .errors = {0.4, 0.4},
+                    .compared = true}};
+  const auto plot = compared_plot({first, second}, {"A", "B"}, true);
+  REQUIRE(plot);
+  CHECK_FALSE(plot->log_y);
+  REQUIRE(plot->curves.size() == 1);
+  CHECK(plot->curves[0].points == std::vector<Vec2>{{1.0, 7.0}});
+  CHECK(plot->curves[0].errors == std::vector<double>{0.5});
+  second.curves[0].compared = false;
+  CHECK_FALSE(compared_plot({first, second}, {"A", "B"}, false));
 }
 
 }  // namespace clatter

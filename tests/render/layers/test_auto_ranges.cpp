@@ -136,4 +136,28 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("Automatic ranges: several gases have one range, up to the largest of their values") {
+  View view = view_of(Quantity::Temperature);
+  view.arrows = Quantity::Velocity;
+  view.colour_by = ColourBy::Speed;
+  Snapshot slow;
+  slow.box = Vec2(10.0, 10.0);
+  slow.positions = Vectors::Constant(2, 1, 5.0);
+  slow.velocities = Vectors::Constant(2, 1, 0.1);
+  slow.field = FieldMap{*view.field, {1, 1}, {0.5}, true};
+  slow.arrows = ArrowMap{.cell = Vec2(2.0, 2.0), .arrows = {{Vec2(5.0, 5.0), Vec2(0.1, 0.0)}}};
+  Snapshot fast = slow;
+  fast.velocities *= 100.0;
+  fast.field->values = {50.0};
+  fast.arrows->arrows[0].value *= 10.0;
+  for (const auto& gases : {std::vector<const Snapshot*>{&slow, &fast}, {&fast, &slow}}) {
+    const Legends both = AutoRanges().legends(gases, view);
+    const Legends alone = AutoRanges().legends(fast, view);
+    CHECK(both.disks->scale.high == alone.disks->scale.high);
+    CHECK(both.field->scale.high == alone.field->scale.high);
+    CHECK(both.arrows->pixels == alone.arrows->pixels);
+  }
+  CHECK(AutoRanges().legends(slow, view).field->scale.high < 1.0);
+}
+
 }  // namespace clatter
