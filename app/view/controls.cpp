@@ -313,8 +313,7 @@ bool Controls::choice(const char* key, const char* name, const char* help,
         changed = i != chosen;
         chosen = i;
       }
-      // The position of the list is not final in its first frame.
-      if (!ImGui::IsWindowAppearing()) log_place(std::string(key) + '.' + word);
+      log_place(std::string(key) + '.' + word);
     }
     ImGui::EndCombo();
   }
@@ -335,6 +334,39 @@ bool Controls::ends(const char* key, const char* help, std::array<double, 2>& en
   ImGui::PopID();
   if (changed) ends = typed;
   return changed;
+}
+
+// A field whose name is at its left. `field` draws it and returns whether it changed.
+template <class Field>
+bool Controls::named_field(const char* key, const char* name, const char* help,
+                           const Field& field) {
+  if (!shows(key)) return false;
+  ImGui::PushID(key);
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(name);
+  ImGui::SameLine(0.3f * ImGui::GetWindowWidth());
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  const bool changed = field();
+  log_place(key);
+  tell_help(help);
+  ImGui::PopID();
+  return changed;
+}
+
+bool Controls::entry(const char* key, const char* name, const char* help, double& value) {
+  return named_field(key, name, help,
+                     [&] { return ImGui::InputDouble("##entry", &value, 0.0, 0.0, "%.6g"); });
+}
+
+bool Controls::entry(const char* key, const char* name, const char* help, std::string& text) {
+  return named_field(key, name, help, [&] {
+    std::array<char, 256> typed = {};
+    text.copy(typed.data(), typed.size() - 1);
+    const bool changed =
+        ImGui::InputText("##entry", typed.data(), typed.size(), ImGuiInputTextFlags_AutoSelectAll);
+    if (changed) text = typed.data();
+    return changed;
+  });
 }
 
 bool Controls::toggle(const char* key, const char* name, const char* help, bool& on) {
@@ -400,7 +432,9 @@ void Controls::set(const std::vector<Override>& before, const std::vector<Overri
   session_.remember(std::move(edit));
 }
 
+// The place of a list or a dialog is not final in its first picture.
 void Controls::log_place(const std::string& key) {
+  if (ImGui::IsWindowAppearing()) return;
   const ImVec2 low = ImGui::GetItemRectMin(), size = ImGui::GetItemRectSize();
   log_.widget(key, low.x, low.y, size.x, size.y);
 }

@@ -77,6 +77,10 @@ class Controls {
   /// Two text fields for the ends of a range. Returns true if a new pair with ends[0] < ends[1] was
   /// entered.
   bool ends(const char* key, const char* help, std::array<double, 2>& ends);
+  /// Text field for a number, with its name at the left. Returns true if the number changed.
+  bool entry(const char* key, const char* name, const char* help, double& value);
+  /// Text field for up to 255 bytes, as above. A click selects the text.
+  bool entry(const char* key, const char* name, const char* help, std::string& text);
   /// Check box. Returns true if it was clicked.
   bool toggle(const char* key, const char* name, const char* help, bool& on);
   /// Button of `width` pixels; 0: as wide as its label. It is marked while it is `on`. Returns true
@@ -110,6 +114,8 @@ class Controls {
   };
 
   Moved draw(const Slider& slider, double& value, double usual, const std::string& place);
+  template <class Field>
+  bool named_field(const char* key, const char* name, const char* help, const Field& field);
   double limited(const Slider& slider, double value);
   bool due();
   void log_place(const std::string& key);

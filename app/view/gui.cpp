@@ -207,11 +207,8 @@ void Gui::record() {
     case Recording::CopyLink:
       copy_link();
       break;
-    case Recording::CopyCommand:
-      copy_command();
-      break;
     case Recording::Film:
-      film();
+      open_film_dialog();
       break;
     case Recording::StopFilm:
       film_->interrupt();
@@ -309,6 +306,7 @@ void Gui::viewport() {
     if (chosen) open_gallery_scene(*chosen);
   }
   ask_about_changes();
+  use_film_dialog();
   if (panels_.help) help_window(session_.scene().dimension(), whole.x, whole.y);
   if (frame.opening) opening_note(session_, controls_, area_);
   if (!frame.scene) return;

@@ -11,6 +11,7 @@
 #include "app/runs/compared_scenes.h"
 #include "app/system/program_job.h"
 #include "app/view/controls.h"
+#include "app/view/film_dialog.h"
 #include "app/view/gallery.h"
 #include "app/view/history.h"
 #include "app/view/host.h"
@@ -129,9 +130,11 @@ class Gui {
   Scene recorded_beside(const Frame& gas, const std::string& file) const;
   std::vector<ComparedScene> recorded_beside(const std::string& file) const;
   std::vector<std::string> save_scenes();
-  std::vector<std::string> film_arguments(const std::vector<std::string>& scenes) const;
-  void copy_command();
   void copy_link();
+  void open_film_dialog();
+  void use_film_dialog();
+  std::vector<std::string> prepared_film();
+  void copy_command();
   void film();
   void watch_film();
   void film_screen();
@@ -155,6 +158,7 @@ class Gui {
   int profiled_ = 0;  // index into profile_names()
   int profile_axis_ = 0;
   std::string observable_;  // table_title() of the plotted table; unknown: the first
+  FilmDialog film_dialog_;
   std::optional<ProgramJob> film_;
   std::string film_file_;  // file of the film that is made
   struct ScreenFilm {

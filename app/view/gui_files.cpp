@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "app/runs/picture_scene.h"
+#include "app/system/batch_script.h"
 #include "app/system/exit_code.h"
 #include "app/view/gui.h"
 #include "app/view/link.h"
@@ -66,7 +69,9 @@ static std::string free_name(const std::string& extension) {
   for (int number = 1;; ++number) {
     const std::string name = "clatter-" + std::to_string(number);
     const auto is_taken = [&](const char* other) { return std::filesystem::exists(name + other); };
-    if (std::ranges::none_of(std::array{".png", ".toml", ".csv", ".mp4", ".webm"}, is_taken)) {
+    if (std::ranges::none_of(
+            std::array{".png", ".toml", ".csv", ".mp4", ".webm", ".gif", ".mov", ".mkv"},
+            is_taken)) {
       return name + extension;
     }
   }
@@ -135,21 +140,45 @@ std::vector<std::string> Gui::save_scenes() {
   return {};
 }
 
-// The command line for a film of these scenes from time 0 to the current time.
-std::vector<std::string> Gui::film_arguments(const std::vector<std::string>& scenes) const {
+void Gui::open_film_dialog() {
   const Frame& frame = session_.frame();
-  std::vector<std::string> words = {"clatter", "render"};
-  words.insert(words.end(), scenes.begin(), scenes.end());
-  const std::string film = std::filesystem::path(scenes.front()).replace_extension(".mp4").string();
-  words.insert(words.end(), {"--seed", std::to_string(frame.seed), "--to",
-                             fmt::format("{:.6g}", frame.snapshot.time), "--out", film});
-  return words;
+  if (!frame.scene) return;
+  film_dialog_.open(frame.head, frame.speed, session_.view().overlay, free_name(".mp4"));
+}
+
+void Gui::use_film_dialog() {
+  switch (film_dialog_.draw(controls_)) {
+    case FilmDialog::Action::Film:
+      return film();
+    case FilmDialog::Action::CopyCommand:
+      return copy_command();
+    case FilmDialog::Action::Cancel:
+    case FilmDialog::Action::None:
+      return;
+  }
+}
+
+// Saves the scenes of the film, and returns its command. No words: they could not be saved.
+std::vector<std::string> Gui::prepared_film() {
+  const std::vector<std::string> scenes = save_scenes();
+  if (scenes.empty()) return {};
+  return film_command(film_dialog_.film(), scenes, session_.frame().seed);
+}
+
+// Whether a shell reads a word as it is.
+static bool is_plain(const std::string& word) {
+  return std::ranges::all_of(word, [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || std::strchr("._-/+", c) != nullptr;
+  });
 }
 
 void Gui::copy_command() {
-  const std::vector<std::string> scenes = save_scenes();
-  if (scenes.empty()) return;
-  const std::string command = fmt::format("{}", fmt::join(film_arguments(scenes), " "));
+  const std::vector<std::string> words = prepared_film();
+  if (words.empty()) return;
+  std::string command;
+  for (const std::string& word : words) {
+    command += (command.empty() ? "" : " ") + (is_plain(word) ? word : shell_word(word));
+  }
   host_.copy(command);
   log_.event("command", {{"line", command}});
   session_.tell("Copied: " + command);
@@ -169,15 +198,13 @@ void Gui::copy_link() {
 }
 
 void Gui::film() {
-  const std::vector<std::string> scenes = save_scenes();
-  if (scenes.empty()) return;
+  std::vector<std::string> arguments = prepared_film();
+  if (arguments.empty()) return;
   try {
-    std::vector<std::string> arguments = film_arguments(scenes);
-    const std::string file = arguments.back();
     arguments.insert(arguments.end(), {"--progress", "json"});
     film_.emplace(arguments);
-    film_file_ = file;
-    session_.tell("Filming from t = 0 to now into " + file);
+    film_file_ = film_dialog_.film().file;
+    session_.tell("Filming into " + film_file_);
   } catch (const std::exception& error) {
     session_.tell(error.what());
   }

@@ -22,10 +22,14 @@ void Gui::use_keys() {
       use_question_key(press);
       continue;
     }
+    if (film_dialog_.is_open()) {
+      if (press.key == GLFW_KEY_ESCAPE) film_dialog_.close();
+      continue;
+    }
     use_function_key(press);
     if (!ImGui::GetIO().WantTextInput) use_key(press);
   }
-  if (!ImGui::GetIO().WantTextInput && !delayed_) use_signs();
+  if (!ImGui::GetIO().WantTextInput && !delayed_ && !film_dialog_.is_open()) use_signs();
 }
 
 void Gui::use_question_key(const KeyPress& press) {

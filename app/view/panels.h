@@ -38,14 +38,13 @@ enum class Recording {
   SaveScene,
   RestoreScene,
   CopyLink,
-  CopyCommand,
   Film,
   StopFilm,
   FilmScreen,
   StopScreen
 };
-/// Films that the surroundings of the window can make: of the run from time 0 in the background, or
-/// of the screen from now on.
+/// Films that the surroundings of the window can make: of the run in the background, or of the
+/// screen from now on.
 enum class Films { None, OfRun, OfScreen };
 /// Buttons for pictures, scene files and films, and for links where no processes make films.
 /// `filmed` belongs to the current film: its completed fraction 0..1, or its seconds if it is of

@@ -47,17 +47,9 @@ Recording record_panel(Controls& controls, Films films, std::optional<double> fi
     if (controls.button("film", label.c_str(), "Keeps the frames filmed so far", width)) {
       asked = Recording::StopFilm;
     }
-  } else if (controls.button("film", "Film from t = 0###film",
-                             "Saves the scene with all changes so far, and films it from time 0 to "
-                             "now in the background",
-                             width)) {
+  } else if (controls.button("film", "Film...###film",
+                             "Films the run, or a part of it, in the background", width)) {
     asked = Recording::Film;
-  }
-  if (controls.button("command", "Copy film command",
-                      "Saves the scene with all changes so far, and puts the command line that "
-                      "films it into the clipboard",
-                      width)) {
-    asked = Recording::CopyCommand;
   }
   return asked;
 }

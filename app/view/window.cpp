@@ -78,15 +78,17 @@ void fit_to_screen(GLFWwindow* window) {
 
 // Sleeps until an event, such as a new frame of the engine. While the panels settle it sleeps for
 // at most one refresh period. Without vertical synchronisation the sleep still limits the picture
-// rate.
-void wait_for_events(bool settles, RealClock::time_point began, double rate) {
-  if (settles) {
-    glfwWaitEventsTimeout(1.0 / rate);
-  } else {
-    glfwWaitEvents();
-  }
-  const std::chrono::duration<double> shortest(0.7 / rate);
+// rate. Returns whether there was an event.
+bool wait_for_events(bool settles, RealClock::time_point began, double rate) {
+  const std::chrono::duration<double> shortest(0.7 / rate), period(1.0 / rate);
   std::this_thread::sleep_until(began + std::chrono::duration_cast<RealClock::duration>(shortest));
+  if (!settles) {
+    glfwWaitEvents();
+    return true;
+  }
+  const auto waits_since = RealClock::now();
+  glfwWaitEventsTimeout(period.count());
+  return RealClock::now() - waits_since < period;
 }
 
 }  // namespace
@@ -109,18 +111,18 @@ static void show(const WindowOptions& options) {
     gui.open(options.scene, options.seed, options.until, options.beside);
     // Panels need several pictures after an event to settle.
     constexpr int kSettle = 4;
-    for (int left = kSettle;; left = left > 0 ? left - 1 : kSettle) {
+    for (int left = kSettle;;) {
       if (glfwWindowShouldClose(window)) {
         if (gui.may_close()) break;
         glfwSetWindowShouldClose(window, GLFW_FALSE);
       }
       const auto began = RealClock::now();
-      glfwPollEvents();
       ImGui_ImplGlfw_NewFrame();
       gui.draw();
       glfwSwapBuffers(window);
       guard.check();
-      wait_for_events(left > 0 || gui.changes(), began, rate);
+      const bool event = wait_for_events(left > 0 || gui.changes(), began, rate);
+      left = event ? kSettle : std::max(0, left - 1);
     }
     // Hide the window first: ~Gui interrupts a film and waits for its end.
     glfwHideWindow(window);

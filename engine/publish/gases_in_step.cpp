@@ -36,8 +36,9 @@ void GasesInStep::select(std::size_t gas) {
 }
 
 double GasesInStep::time() const {
-  const auto time_of = [](const Gas& gas) { return gas.run->time(); };
-  return time_of(*std::ranges::min_element(gases_, {}, time_of));
+  double least = selected().time();
+  for (const Gas& gas : gases_) least = std::min(least, gas.run->time());
+  return least;
 }
 
 bool GasesInStep::prepare(const StopRequest& pause) {

@@ -264,13 +264,13 @@ class EngineWork {
     gases.insert(gases.begin() + static_cast<std::ptrdiff_t>(place), {asked.scene, asked.seed});
     Opening opening{asked};
     for (std::size_t k = 0; k < gases.size(); ++k) {
-      auto& [scene, seed] = gases[k];
+      command::GasToOpen& gas = gases[k];
       if (asked.keeps_gas && gases_ && k < gases_->count()) {
         const VecX shift = k == place ? asked.shift : VecX();
         AnyState state = gases_->state_of(k);
-        std::visit([&](auto& present) { start_from(present, shift, seed, scene); }, state);
+        std::visit([&](auto& present) { start_from(present, shift, gas.seed, gas.scene); }, state);
       }
-      opening.runs.push_back(std::make_unique<OpeningRun>(scene, seed, record_bytes_));
+      opening.runs.push_back(std::make_unique<OpeningRun>(gas.scene, gas.seed, record_bytes_));
     }
     opening_.emplace(std::move(opening));
     if (work_on_opening()) finish_opening();

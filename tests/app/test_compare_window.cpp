@@ -168,9 +168,10 @@ TEST_CASE("Compare window: a screenshot has all scenes, and the film command fil
   const std::string picture = driver.shell().read("clatter-1.png");
   CHECK(picture.find("Scene B") != std::string::npos);
   told = driver.told();
-  driver.click("command");
+  driver.click("film");
+  driver.click("film.command");
   const std::string line = driver.wait_for("command", told)["line"];
-  CHECK(line == "clatter render clatter-2.toml clatter-3.toml --seed 1 --to 1 --out clatter-2.mp4");
+  CHECK(line == "clatter render clatter-2.toml clatter-3.toml --seed 1 --to 1 --speed 2 --out clatter-2.mp4");
   const Outcome film = driver.shell().run(
       "clatter render clatter-2.toml clatter-3.toml --seed 1 --to 1 --size 96x48 --quiet "
       "--out last.png && grep -ac 'State hash B' last.png");

@@ -132,6 +132,7 @@ TEST_CASE("Window: what it saves takes the place of no file") {
   CHECK(driver.wait_for("saved", told)["file"] == "clatter-5.toml");
   told = driver.told();
   driver.click("film");
+  driver.click("film.make");
   const json film = driver.wait_for("film", told);
   CHECK(film["file"] == "clatter-6.mp4");
   CHECK(film["code"] == 0);

@@ -42,9 +42,11 @@ TEST_CASE("Window: its film of a changed gas equals the film of the command that
   check_saved_scene(driver);
   const std::size_t told = driver.told();
   driver.click("film");
+  driver.click("film.make");
   const json film = driver.wait_for("film", told);
   CHECK(film["code"] == 0);
-  driver.click("command");
+  driver.click("film");
+  driver.click("film.command");
   const std::string line = driver.wait_for("command", told)["line"];
   REQUIRE(driver.shell().run(line + " --quiet").code == 0);
   const auto pictures = [&](const std::string& file) {
@@ -59,6 +61,7 @@ TEST_CASE("Window: it closes while it films, and the film plays as far as it got
   const GuiDriver driver("--set view.speed=0.5 --set particles.count=20", "1280x1800");
   driver.wait_for("status", 0, [](const json& status) { return status["time"] > 4.0; });
   driver.click("film");
+  driver.click("film.make");
   std::this_thread::sleep_for(std::chrono::seconds(2));
   driver.key("ctrl+q");
   driver.wait_for("quit");

@@ -1,0 +1,190 @@
+// The dialog for films of the run in the window.
+
+#include <doctest/doctest.h>
+
+#include <set>
+
+#include "app/view/film_dialog.h"
+#include "render/output/movie_format.h"
+#include "tests/app/gui_driver.h"
+#include "tests/app/panel_actions.h"
+#include "tests/support/messages.h"
+
+namespace clatter {
+
+using nlohmann::json;
+using testing::says;
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+// The dialog in a panel, and the action that ended it.
+struct ShownDialog {
+  FilmDialog dialog;
+  FilmDialog::Action action = FilmDialog::Action::None;
+  PanelDriver driver{uneven_disks(), [this](Session&, Controls& controls) {
+                       const auto now = dialog.draw(controls);
+                       if (now != FilmDialog::Action::None) action = now;
+                     }};
+
+  void open(double now, double speed, bool overlay, const std::string& file) {
+    dialog.open(now, speed, overlay, file);
+    // Its place follows from its height, which the first pictures determine.
+    for (int picture = 0; picture < 3; ++picture) driver.lines();
+  }
+};
+
+}  // namespace
+
+TEST_CASE("Film dialog: its formats are those of films, with their sound and transparency") {
+  std::set<std::string> extensions;
+  for (const FilmFormat& offered : film_formats()) {
+    CAPTURE(offered.extension);
+    const MovieFormat* format = find_movie_format(offered.extension);
+    REQUIRE(format);
+    CHECK(offered.sound == !format->sound.empty());
+    CHECK(offered.alpha == !format->transparent.empty());
+    extensions.insert(offered.extension);
+  }
+  CHECK(extensions == std::set<std::string>{".gif", ".mkv", ".mov", ".mp4", ".webm"});
+}
+
+TEST_CASE("Film dialog: the command has all settings, and none that the format lacks") {
+  FilmSettings film{.from = 0.0, .to = 12.5, .speed = 2.0, .file = "a.mp4"};
+  CHECK(film_command(film, {"s.toml"}, 3) == Words{"clatter", "render", "s.toml", "--seed", "3",
+                                                   "--to", "12.5", "--speed", "2", "--out",
+                                                   "a.mp4"});
+  film = {.from = 1.5,
+          .to = 7.0,
+          .speed = 0.1,
+          .quality = 'h',
+          .file = "b.webm",
+          .overlay = false,
+          .sound = true,
+          .motion_blur = true,
+          .transparent = true};
+  CHECK(film_command(film, {"s.toml", "t.toml"}, 1) ==
+        Words{"clatter", "render",    "s.toml", "t.toml",        "--seed", "1",     "--from",
+              "1.5",     "--to",      "7",      "--speed",       "0.1",    "-qh",   "--no-overlay",
+              "--sound", "--shutter", "0.5",    "--transparent", "--out",  "b.webm"});
+  film.file = "b.gif";
+  const Words silent = film_command(film, {"s.toml"}, 1);
+  CHECK(std::ranges::count(silent, "--sound") == 0);
+  CHECK(std::ranges::count(silent, "--transparent") == 0);
+  film.file = "b.mp4";
+  const Words opaque = film_command(film, {"s.toml"}, 1);
+  CHECK(std::ranges::count(opaque, "--sound") == 1);
+  CHECK(std::ranges::count(opaque, "--transparent") == 0);
+}
+
+TEST_CASE("Film dialog: its buttons choose the whole run or its last 20 seconds") {
+  ShownDialog shown;
+  shown.open(100.0, 2.0, true, "no-such-film.mp4");
+  const FilmSettings& film = shown.dialog.film();
+  CHECK(film.from == 0.0);
+  CHECK(film.to == 100.0);
+  CHECK(film.speed == 2.0);
+  tick(shown.driver, "film.last");
+  CHECK(film.from == 60.0);
+  CHECK(film.to == 100.0);
+  tick(shown.driver, "film.whole");
+  CHECK(film.from == 0.0);
+  // The run is shorter than 20 seconds.
+  shown.open(15.0, 2.0, true, "no-such-film.mp4");
+  tick(shown.driver, "film.last");
+  CHECK(film.from == 0.0);
+  CHECK(film.to == 15.0);
+}
+
+TEST_CASE("Film dialog: lists and boxes set quality, format and content") {
+  ShownDialog shown;
+  shown.open(100.0, 2.0, true, "folder/no-such-film.mp4");
+  const FilmSettings& film = shown.dialog.film();
+  choose(shown.driver, "film.quality", "854 x 480, 15 per second");
+  CHECK(film.quality == 'l');
+  choose(shown.driver, "film.quality", "1920 x 1080, 60 per second");
+  CHECK(film.quality == 'h');
+  CHECK_FALSE(says(text_of(shown.driver), "Transparent"));
+  tick(shown.driver, "film.sound");
+  CHECK(film.sound);
+  choose(shown.driver, "film.format", "WebM, for web pages");
+  CHECK(film.file == "folder/no-such-film.webm");
+  tick(shown.driver, "film.transparent");
+  CHECK(film.transparent);
+  tick(shown.driver, "film.overlay");
+  CHECK_FALSE(film.overlay);
+  tick(shown.driver, "film.blur");
+  CHECK(film.motion_blur);
+  choose(shown.driver, "film.format", "GIF, for pages without a player");
+  CHECK(film.file == "folder/no-such-film.gif");
+  CHECK_FALSE(says(text_of(shown.driver), "Sound"));
+  tick(shown.driver, "film.make");
+  CHECK(shown.action == FilmDialog::Action::Film);
+  CHECK_FALSE(shown.dialog.is_open());
+  // The next film has the same form, at the present speed. A view without texts has none to hide.
+  shown.open(50.0, 3.0, false, "other.mp4");
+  CHECK(film.file == "other.gif");
+  CHECK(film.quality == 'h');
+  CHECK(film.speed == 3.0);
+  CHECK_FALSE(says(text_of(shown.driver), "figures"));
+  tick(shown.driver, "film.command");
+  CHECK(shown.action == FilmDialog::Action::CopyCommand);
+  shown.open(50.0, 3.0, true, "other.mp4");
+  tick(shown.driver, "film.cancel");
+  CHECK(shown.action == FilmDialog::Action::Cancel);
+}
+
+TEST_CASE("Film dialog: a mistake is named, and makes no film") {
+  ShownDialog shown;
+  const auto refused = [&](const char* reason) {
+    CHECK(says(text_of(shown.driver), reason));
+    tick(shown.driver, "film.make");
+    tick(shown.driver, "film.command");
+    CHECK(shown.action == FilmDialog::Action::None);
+    CHECK(shown.dialog.is_open());
+  };
+  shown.open(10.0, 2.0, true, "no-such-film.avi");
+  refused("must end in one of .mp4, .webm, .gif, .mov, .mkv");
+  shown.open(0.0, 2.0, true, "no-such-film.mp4");
+  refused("must end after its start");
+  shown.open(10.0, 0.0, true, "no-such-film.mp4");
+  refused("greater than 0");
+  const testing::TemporaryFolder folder;
+  const std::string file = folder / "a.mp4";
+  testing::write_bytes(file, "a film");
+  shown.open(10.0, 2.0, true, file);
+  CHECK(says(text_of(shown.driver), "will be replaced"));
+}
+
+TEST_SUITE_BEGIN("window");
+
+TEST_CASE("Window: typed times and a typed name make the film") {
+  const GuiDriver driver("--until 3", "1280x1800");
+  driver.wait_for("status", 0, halted);
+  driver.click("film");
+  std::size_t told = driver.told();
+  const auto type = [&](const char* field, const char* keys) {
+    driver.click(field);
+    driver.key(keys);
+  };
+  type("film.from", "1");
+  type("film.to", "2 period 5");
+  type("film.length", "3");
+  type("film.file", "f i l m period g i f");
+  // Keys of the window wait.
+  driver.key("Tab");
+  driver.click("film.command");
+  CHECK(driver.wait_for("command", told)["line"] ==
+        "clatter render clatter-1.toml --seed 1 --from 1 --to 2.5 --speed 0.5 --out film.gif");
+  driver.click("film");
+  driver.key("g");
+  driver.key("Escape");
+  told = driver.told();
+  driver.key("g");
+  CHECK(driver.wait_for("gallery", told)["open"] == true);
+}
+
+TEST_SUITE_END();
+
+}  // namespace clatter
