@@ -201,8 +201,9 @@ void Timeline::track(Session& session, ScriptLog& log, float width) {
     std::string text = marks_near(frame, scale, mouse.x, reach);
     if (text.empty()) text = fmt::format("t = {:.6g}", time);
     if (on_other) text = "The other future: a click returns to it";
-    // Above the strip, so that it covers no mark.
-    ImGui::SetNextWindowPos(ImVec2(mouse.x, low.y - unit), ImGuiCond_Always, ImVec2(0.5f, 1.0f));
+    // Above the strip, so that it covers no mark, and within the window.
+    ImGui::SetNextWindowPos(ImVec2(mouse.x, low.y - unit), ImGuiCond_Always,
+                            ImVec2(mouse.x / ImGui::GetIO().DisplaySize.x, 1.0f));
     ImGui::SetTooltip("%s", text.c_str());
   }
 
