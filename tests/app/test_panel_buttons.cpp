@@ -29,8 +29,8 @@ TEST_CASE("Buttons: those of the record panel ask for what they are named after"
     tick(driver, button);
     return asked;
   };
-  check_lines(driver.lines(),
-              {"### Record ###", "[ Screenshot ]", "[ Save scene ]", "[ Restore scene ]", "[ Film... ]"});
+  check_lines(driver.lines(), {"### Record ###", "[ Screenshot ]", "[ Save scene ]",
+                               "[ Restore scene ]", "[ Film... ]"});
   CHECK(asks("screenshot") == Recording::Screenshot);
   CHECK(asks("save") == Recording::SaveScene);
   CHECK(asks("restore") == Recording::RestoreScene);
@@ -42,8 +42,8 @@ TEST_CASE("Buttons: those of the record panel ask for what they are named after"
   films = Films::OfScreen;
   filmed.reset();
   driver.point_at(0.0f, 3000.0f);
-  check_lines(driver.lines(), {"### Record ###", "[ Screenshot ]", "[ Save scene ]", "[ Restore scene ]",
-                               "[ Film ]", "[ Copy link ]"});
+  check_lines(driver.lines(), {"### Record ###", "[ Screenshot ]", "[ Save scene ]",
+                               "[ Restore scene ]", "[ Film ]", "[ Copy link ]"});
   CHECK(asks("film") == Recording::FilmScreen);
   CHECK(asks("link") == Recording::CopyLink);
   filmed = 12.0;
@@ -53,8 +53,8 @@ TEST_CASE("Buttons: those of the record panel ask for what they are named after"
   films = Films::None;
   filmed.reset();
   driver.point_at(0.0f, 3000.0f);
-  check_lines(driver.lines(),
-              {"### Record ###", "[ Screenshot ]", "[ Save scene ]", "[ Restore scene ]", "[ Copy link ]"});
+  check_lines(driver.lines(), {"### Record ###", "[ Screenshot ]", "[ Save scene ]",
+                               "[ Restore scene ]", "[ Copy link ]"});
 }
 
 TEST_CASE("Buttons: those of the top bar move the gas, change its speed and open their parts") {
