@@ -20,7 +20,6 @@ void GasesInStep::add_copy(std::uint64_t id) {
                     "remove one first");
   }
   gases_.push_back({selected().copy(), id});
-  follow();
 }
 
 void GasesInStep::remove(std::size_t gas) {
@@ -45,10 +44,24 @@ bool GasesInStep::prepare(const StopRequest& pause) {
   return std::ranges::all_of(gases_, [&](const Gas& gas) { return gas.run->prepare(pause); });
 }
 
+// Does something that may move the selected run, also if it fails. Returns the result of follow().
+template <class Act>
+bool GasesInStep::lead(const Act& act, const StopRequest& pause) {
+  try {
+    act();
+  } catch (...) {
+    follow();
+    throw;
+  }
+  return follow(pause);
+}
+
 bool GasesInStep::run_until(double time, std::uint64_t collisions, std::uint64_t steps,
                             const StopRequest& pause) {
-  const bool arrived = selected().run_until(time, collisions, steps, pause);
-  return follow(pause) && arrived;
+  bool arrived = false;
+  const bool followed =
+      lead([&] { arrived = selected().run_until(time, collisions, steps, pause); }, pause);
+  return followed && arrived;
 }
 
 // Runs the others to the time of the selected run. Returns false at a request to pause.
@@ -76,18 +89,6 @@ void GasesInStep::meet_at(double time) {
     if (gas.run->time() > time) gas.run->go_back(time);
     while (gas.run->time() < time) gas.run->run_until(time, kNoLimit, kNoLimit);
   }
-}
-
-// Does something that may move the selected run a little, also if it fails.
-template <class Act>
-void GasesInStep::lead(const Act& act) {
-  try {
-    act();
-  } catch (...) {
-    follow();
-    throw;
-  }
-  follow();
 }
 
 void GasesInStep::settle() {

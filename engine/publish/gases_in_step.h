@@ -15,7 +15,7 @@ namespace clatter {
 /// dimension.
 ///
 /// A frame is that of the selected run, with the frames of the others in Frame::beside. Each run
-/// has the bits that it has alone. Where a run beside stops, all go to this time.
+/// has the bits that it has alone. Where a run stops, all go to this time.
 class GasesInStep final : public WatchedRun {
  public:
   /// Runs at the same time, and their Frame::id. One of them is selected.
@@ -73,7 +73,7 @@ class GasesInStep final : public WatchedRun {
   WatchedRun& selected() { return *gases_[selected_].run; }
   const WatchedRun& selected() const { return *gases_[selected_].run; }
   template <class Act>
-  void lead(const Act& act);
+  bool lead(const Act& act, const StopRequest& pause = {});
   double others_go_back(double time);
   bool follow(const StopRequest& pause = {});
   void meet_at(double time);

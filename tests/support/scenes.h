@@ -27,6 +27,14 @@ inline void wall_in(Scene& scene, int axis, const Wall& wall) {
   scene.walls[2 * axis] = scene.walls[2 * axis + 1] = wall;
 }
 
+/// Grains under gravity that come to rest on a floor.
+inline Scene collapsing_gas() {
+  Scene scene = gas(8.0, 12.0, 20, 0.5);
+  scene.gravity = Vec2(0.0, -1.0);
+  wall_in(scene, 1, Wall{.kind = WallKind::Static, .restitution = 0.5});
+  return scene;
+}
+
 /// Rough spheres under gravity between six walls of different kinds or temperatures.
 inline Scene rough_spheres(int count) {
   Scene scene = default_scene(3);

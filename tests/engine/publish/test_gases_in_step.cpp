@@ -7,10 +7,10 @@
 #include "engine/error.h"
 #include "engine/publish/gases_in_step.h"
 #include "engine/publish/scheduled_run.h"
-#include "engine/publish/worker.h"
 #include "engine/scene/scene_file.h"
 #include "tests/support/messages.h"
 #include "tests/support/scenes.h"
+#include "tests/support/sliced_worker.h"
 
 using namespace clatter;
 using namespace clatter::testing;
@@ -77,14 +77,6 @@ void check_bits(const Frame& frame) {
   }
 }
 
-// Executes a command, and works until the gases halt.
-const Frame& do_command(SlicedWorker& engine, Command command) {
-  engine.send(std::move(command));
-  while (engine.busy()) engine.work(std::chrono::milliseconds(50));
-  engine.frames().update();
-  return engine.frames().front();
-}
-
 }  // namespace
 
 TEST_CASE("Gases in step: a copy has the bits, the past and the sums of its original") {
@@ -119,6 +111,11 @@ TEST_CASE("Gases in step: a copy between two frames begins at the time of all") 
   GasesInStep gases = in_step({stepping_disks(0.9), stepping_disks(0.8)}, 0);
   REQUIRE_FALSE(gases.run_until(20.0, kNoLimit, 1000));
   gases.add_copy(2);
+  Frame moving;
+  gases.tell(moving, false);
+  for (const Frame& other : moving.beside) {
+    CHECK(other.snapshot.time == doctest::Approx(moving.snapshot.time).epsilon(1e-15));
+  }
   check_bits(frame_in_step(gases));
 }
 
@@ -206,18 +203,15 @@ TEST_CASE("Gases in step: numbers follow a removal, identities stay") {
 
 TEST_CASE("Gases in step: the fifth gas is refused, and the four stay") {
   SlicedWorker engine;
-  do_command(engine, command::Open{stepping_disks(0.9), kStepSeed, false});
-  for (int copies = 1; copies < 4; ++copies) do_command(engine, command::CopyGas{});
-  const Frame& full = do_command(engine, command::CopyGas{});
+  obey(engine, command::Open{stepping_disks(0.9), kStepSeed, false});
+  for (int copies = 1; copies < 4; ++copies) obey(engine, command::CopyGas{});
+  const Frame& full = obey(engine, command::CopyGas{});
   CHECK(full.beside.size() == 3);
   CHECK(says(full.message, "no more than 4 gases"));
 }
 
 TEST_CASE("Gases in step: all halt where a gas beside stops, and its letter is in the message") {
-  // Grains that come to rest on a floor.
-  Scene collapsing = gas(8.0, 12.0, 20, 0.5);
-  collapsing.gravity = Vec2(0.0, -1.0);
-  wall_in(collapsing, 1, Wall{.kind = WallKind::Static, .restitution = 0.5});
+  const Scene collapsing = collapsing_gas();
   ScheduledRun<2> alone(collapsing, kStepSeed);
   CHECK_THROWS_AS(alone.run_until(1e4), PhysicalStop);
   const double stop = alone.simulation().time();
@@ -225,23 +219,31 @@ TEST_CASE("Gases in step: all halt where a gas beside stops, and its letter is i
   SlicedWorker engine;
   command::Open open{stepping_disks(0.9), kStepSeed, false};
   open.beside = {{collapsing, kStepSeed}};
-  do_command(engine, open);
-  const Frame& halted = do_command(engine, command::Jump{1e4});
+  obey(engine, open);
+  const Frame& halted = obey(engine, command::Jump{1e4});
   CHECK(halted.snapshot.time == 0.0);
-  do_command(engine, command::SetSpeed{100.0});
-  const Frame& stopped = do_command(engine, command::Play{true, 1e4});
+  obey(engine, command::SetSpeed{100.0});
+  const Frame& stopped = obey(engine, command::Play{true, 1e4});
   CHECK_FALSE(stopped.plays);
   CHECK(stopped.snapshot.time == doctest::Approx(stop).epsilon(1e-12));
   CHECK(stopped.beside[0].snapshot.time == doctest::Approx(stop).epsilon(1e-15));
   CHECK(says(stopped.message, "gas B: "));
   // A contact time of the gas that stopped lets both continue.
-  do_command(engine, command::SelectGas{1});
-  do_command(engine, command::SetLaws{{{"collapse.contact_time", "0.01"}}});
-  const Frame& later = do_command(engine, command::Play{true, std::ceil(stop) + 2.0});
+  obey(engine, command::SelectGas{1});
+  obey(engine, command::SetLaws{{{"collapse.contact_time", "0.01"}}});
+  const Frame& later = obey(engine, command::Play{true, std::ceil(stop) + 2.0});
   const Frame& first = later.beside[0];
   CHECK(first.snapshot.time == std::ceil(stop) + 2.0);
   CHECK(later.snapshot.time == doctest::Approx(first.snapshot.time).epsilon(1e-15));
   CHECK(first.state_hash == hash_alone<2>(*first.started, first.snapshot.time));
+}
+
+TEST_CASE("Gases in step: all halt where the selected gas stops") {
+  GasesInStep gases = in_step({stepping_disks(0.9), collapsing_gas()}, 1);
+  CHECK_THROWS_AS(gases.run_until(1e4, kNoLimit, kNoLimit), PhysicalStop);
+  const Frame stopped = frame_in_step(gases);
+  CHECK(stopped.snapshot.time > 0.0);
+  CHECK(stopped.beside[0].snapshot.time == doctest::Approx(stopped.snapshot.time).epsilon(1e-15));
 }
 
 TEST_CASE("Gases in step: steps to collisions are those of the selected gas") {
@@ -249,38 +251,38 @@ TEST_CASE("Gases in step: steps to collisions are those of the selected gas") {
   command::Open open{stepping_disks(0.6), kStepSeed, false};
   open.beside = {{stepping_disks(0.9), kStepSeed}};
   open.gas = 1;
-  const Frame opened = do_command(engine, open);
+  const Frame opened = obey(engine, open);
   CHECK(opened.gas == 1);
   CHECK(opened.scene->particles.restitution == 0.6);
   std::uint64_t collisions = opened.snapshot.collisions;
   for (int step = 0; step < 10; ++step) {
-    const Frame& frame = do_command(engine, command::StepCollision{});
+    const Frame& frame = obey(engine, command::StepCollision{});
     CHECK(frame.snapshot.collisions == ++collisions);
     CHECK(frame.partners.has_value());
     check_bits(frame);
   }
-  do_command(engine, command::Play{true, 10.0});
-  const Frame& back = do_command(engine, command::StepBack{});
+  obey(engine, command::Play{true, 10.0});
+  const Frame& back = obey(engine, command::StepBack{});
   CHECK(back.snapshot.time < 10.0);
   check_bits(back);
-  do_command(engine, command::PlayBackwards{});
+  obey(engine, command::PlayBackwards{});
   engine.work(std::chrono::milliseconds(100));
-  check_bits(do_command(engine, command::Play{false}));
+  check_bits(obey(engine, command::Play{false}));
   // The marks of the pair end with another selection.
-  do_command(engine, command::StepCollision{});
-  CHECK_FALSE(do_command(engine, command::SelectGas{0}).partners.has_value());
+  obey(engine, command::StepCollision{});
+  CHECK_FALSE(obey(engine, command::SelectGas{0}).partners.has_value());
 }
 
 TEST_CASE("Gases in step: each keeps its own particles in another box") {
   SlicedWorker engine;
   command::Open open{gas(10.0, 10.0, 30, 0.9), kStepSeed, false};
   open.beside = {{gas(10.0, 10.0, 30, 0.5), kStepSeed}};
-  do_command(engine, open);
-  do_command(engine, command::SetSpeed{100.0});
-  const Frame before = do_command(engine, command::Play{true, 10.0});
+  obey(engine, open);
+  obey(engine, command::SetSpeed{100.0});
+  const Frame before = obey(engine, command::Play{true, 10.0});
   command::Open wider{gas(12.0, 10.0, 30, 0.9), kStepSeed, false, true, Vec2(1.0, 0.0)};
   wider.beside = {{gas(11.0, 10.0, 30, 0.5), kStepSeed}};
-  const Frame& kept = do_command(engine, wider);
+  const Frame& kept = obey(engine, wider);
   const auto moved = [](const Frame& now, const Frame& then) {
     return (now.snapshot.positions - then.snapshot.positions).rowwise().mean().eval();
   };

@@ -10,6 +10,7 @@
 #include "engine/publish/worker.h"
 #include "engine/scene/scene_file.h"
 #include "tests/support/scenes.h"
+#include "tests/support/sliced_worker.h"
 
 using namespace clatter;
 using namespace clatter::testing;
@@ -136,26 +137,10 @@ std::uint64_t fresh_hash(const Scene& scene, double time) {
   return fresh_hashes<D>(scene, {time})[time];
 }
 
-// A gas whose grains come to rest on a floor.
-Scene collapsing_gas() {
-  Scene scene = gas(8.0, 12.0, 20, 0.5);
-  scene.gravity = Vec2(0.0, -1.0);
-  wall_in(scene, 1, Wall{.kind = WallKind::Static, .restitution = 0.5});
-  return scene;
-}
-
 // Runs until the run stops by itself; returns the time of the stop.
 double run_to_stop(WatchedRun& run) {
   CHECK_THROWS_AS(run_to(run, 1e4), PhysicalStop);
   return run.time();
-}
-
-// Executes a command, and works until the gas halts.
-const Frame& obey(SlicedWorker& engine, Command command) {
-  engine.send(std::move(command));
-  while (engine.busy()) engine.work(std::chrono::milliseconds(50));
-  engine.frames().update();
-  return engine.frames().front();
 }
 
 }  // namespace
