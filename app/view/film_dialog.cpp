@@ -66,19 +66,19 @@ std::vector<std::string> film_command(const FilmSettings& film,
   add(true, {"--to", number_text(film.to), "--speed", number_text(film.speed)});
   add(film.quality != 'm', {std::string("-q") + film.quality});
   add(!film.overlay, {"--no-overlay"});
-  add(film.sound && format && format->sound, {"--sound"});
+  add(film.sound && format && format->sound && scenes.size() == 1, {"--sound"});
   add(film.motion_blur, {"--shutter", "0.5"});
   add(film.transparent && format && format->alpha, {"--transparent"});
   add(true, {"--out", film.file});
   return words;
 }
 
-void FilmDialog::open(double now, double speed, bool overlay, const std::string& file) {
-  now_ = short_time(now);
+void FilmDialog::open(const FilmedRun& run, const std::string& file) {
+  run_ = run;
+  run_.latest = short_time(run.latest);
   film_.from = 0.0;
-  film_.to = now_;
-  film_.speed = speed;
-  has_overlay_ = overlay;
+  film_.to = run_.latest;
+  film_.speed = run.speed;
   const FilmFormat* former = format_of(film_.file);
   film_.file = file;
   if (former)
@@ -122,19 +122,20 @@ FilmDialog::Action FilmDialog::draw(Controls& controls) {
 void FilmDialog::choose_times(Controls& controls) {
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float half = 0.5f * (ImGui::GetContentRegionAvail().x - gap);
-  if (controls.button("film.whole", "Whole run", "From time 0 to now", half)) {
+  if (controls.button("film.whole", "Whole run", "From time 0 to the latest time", half)) {
     film_.from = 0.0;
-    film_.to = now_;
+    film_.to = run_.latest;
   }
   ImGui::SameLine();
   const std::string last = fmt::format("Last {:g} s", kLastSeconds);
   if (controls.button("film.last", last.c_str(), "The last seconds of playing at this speed",
                       half)) {
-    film_.to = now_;
-    film_.from = short_time(std::max(0.0, now_ - kLastSeconds * film_.speed));
+    film_.to = run_.latest;
+    film_.from = short_time(std::max(0.0, run_.latest - kLastSeconds * film_.speed));
   }
   controls.entry("film.from", "From", "Simulation time of the first frame", film_.from);
-  controls.entry("film.to", "To", "Simulation time of the end. It may be later than now", film_.to);
+  controls.entry("film.to", "To", "Simulation time of the end. It may be later than the run",
+                 film_.to);
   controls.entry("film.speed", "Speed", "Simulation time per second of film", film_.speed);
   double length = (film_.to - film_.from) / film_.speed;
   if (controls.entry("film.length", "Length in s", "Length of the film. It sets the speed",
@@ -166,14 +167,14 @@ void FilmDialog::choose_form(Controls& controls) {
 }
 
 void FilmDialog::choose_content(Controls& controls) {
-  if (has_overlay_) {
+  if (run_.overlay) {
     controls.toggle("film.overlay", "Title, figures and scales",
                     "Time, temperature, colour bars and scale bar, too", film_.overlay);
   }
   controls.toggle("film.blur", "Motion blur", "A shutter that is open for half of the time",
                   film_.motion_blur);
   const FilmFormat* format = format_of(film_.file);
-  if (format && format->sound) {
+  if (format && format->sound && run_.gases == 1) {
     controls.toggle("film.sound", "Sound", "A click at each collision", film_.sound);
   }
   if (format && format->alpha) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -21,6 +22,14 @@ struct FilmSettings {
   bool transparent = false;  ///< no background, where the format has alpha
 };
 
+/// The run of which the dialog makes a film.
+struct FilmedRun {
+  double latest = 0.0;    ///< latest simulation time
+  double speed = 1.0;     ///< simulation time per second, as it is shown
+  bool overlay = true;    ///< whether its pictures have title, figures and scales
+  std::size_t gases = 1;  ///< number of compared gases; a film of several has no sound
+};
+
 /// A film format that the dialog offers.
 struct FilmFormat {
   const char* extension;  ///< with its dot
@@ -33,7 +42,7 @@ struct FilmFormat {
 const std::vector<FilmFormat>& film_formats();
 
 /// The words of `clatter render` for a film of these scene files. Values of the command that are
-/// its defaults are left out, and settings that the format lacks.
+/// its defaults are left out, and settings that the film cannot have.
 std::vector<std::string> film_command(const FilmSettings& film,
                                       const std::vector<std::string>& scenes, std::uint64_t seed);
 
@@ -43,9 +52,9 @@ class FilmDialog {
   /// Action that ends the dialog, or none yet.
   enum class Action { None, Film, CopyCommand, Cancel };
 
-  /// Opens the dialog for a run up to the time `now` whose pictures have an overlay or not, and
-  /// proposes its speed and a new file. Other settings stay as they were.
-  void open(double now, double speed, bool overlay, const std::string& file);
+  /// Opens the dialog for a run, and proposes the whole run, its speed and a new file. Other
+  /// settings stay as they were.
+  void open(const FilmedRun& run, const std::string& file);
   /// Whether it is open.
   bool is_open() const { return open_; }
   /// Ends the dialog without a film.
@@ -63,8 +72,7 @@ class FilmDialog {
   std::string mistake() const;
 
   FilmSettings film_;
-  double now_ = 0.0;
-  bool has_overlay_ = true;
+  FilmedRun run_;
   bool open_ = false;
 };
 

@@ -277,7 +277,7 @@ static Curve difference(const Curve& curve, const Curve& other) {
 
 std::optional<LivePlot> compared_plot(const std::vector<LivePlot>& of_gases,
                                       const std::vector<std::string>& names, bool differences) {
-  constexpr std::array<Colour, 4> kColours = {kBlue, kOrange, kGreen, kPurple};
+  constexpr std::array<Colour, kMostGases> kColours = {kBlue, kOrange, kGreen, kPurple};
   LivePlot joined = of_gases.front();
   joined.curves.clear();
   for (std::size_t k = 0; k < of_gases.size(); ++k) {
@@ -287,7 +287,7 @@ std::optional<LivePlot> compared_plot(const std::vector<LivePlot>& of_gases,
     if (k == 0) joined.title += ", " + curve->name;
     joined.curves.push_back(*curve);
     joined.curves.back().name = names[k];
-    joined.curves.back().colour = kColours[k % kColours.size()];
+    joined.curves.back().colour = kColours[k];
     joined.span = std::max(joined.span, of_gases[k].span);
   }
   if (!differences) return joined;

@@ -6,10 +6,13 @@
 
 #include "app/view/direction.h"
 #include "app/view/style.h"
+#include "engine/publish/command.h"
 #include "render/output/cells.h"
 #include "render/picking.h"
 
 namespace clatter {
+
+static_assert(kMostGases == kMostCells);
 
 static bool are_equal(const VecX& a, const VecX& b) {
   return a.size() == b.size() && a == b;

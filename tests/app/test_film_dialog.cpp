@@ -28,8 +28,8 @@ struct ShownDialog {
                        if (now != FilmDialog::Action::None) action = now;
                      }};
 
-  void open(double now, double speed, bool overlay, const std::string& file) {
-    dialog.open(now, speed, overlay, file);
+  void open(const FilmedRun& run, const std::string& file) {
+    dialog.open(run, file);
     // Its place follows from its height, which the first pictures determine.
     for (int picture = 0; picture < 3; ++picture) driver.lines();
   }
@@ -64,10 +64,13 @@ TEST_CASE("Film dialog: the command has all settings, and none that the format l
           .sound = true,
           .motion_blur = true,
           .transparent = true};
-  CHECK(film_command(film, {"s.toml", "t.toml"}, 1) ==
-        Words{"clatter", "render",    "s.toml", "t.toml",        "--seed", "1",     "--from",
-              "1.5",     "--to",      "7",      "--speed",       "0.1",    "-qh",   "--no-overlay",
-              "--sound", "--shutter", "0.5",    "--transparent", "--out",  "b.webm"});
+  CHECK(film_command(film, {"s.toml"}, 1) == Words{"clatter", "render", "s.toml", "--seed", "1",
+                                                   "--from", "1.5", "--to", "7", "--speed", "0.1",
+                                                   "-qh", "--no-overlay", "--sound", "--shutter",
+                                                   "0.5", "--transparent", "--out", "b.webm"});
+  const Words several = film_command(film, {"s.toml", "t.toml"}, 1);
+  CHECK(several[3] == "t.toml");
+  CHECK(std::ranges::count(several, "--sound") == 0);
   film.file = "b.gif";
   const Words silent = film_command(film, {"s.toml"}, 1);
   CHECK(std::ranges::count(silent, "--sound") == 0);
@@ -80,7 +83,7 @@ TEST_CASE("Film dialog: the command has all settings, and none that the format l
 
 TEST_CASE("Film dialog: its buttons choose the whole run or its last 20 seconds") {
   ShownDialog shown;
-  shown.open(100.0, 2.0, true, "no-such-film.mp4");
+  shown.open({100.0, 2.0, true}, "no-such-film.mp4");
   const FilmSettings& film = shown.dialog.film();
   CHECK(film.from == 0.0);
   CHECK(film.to == 100.0);
@@ -91,7 +94,7 @@ TEST_CASE("Film dialog: its buttons choose the whole run or its last 20 seconds"
   tick(shown.driver, "film.whole");
   CHECK(film.from == 0.0);
   // The run is shorter than 20 seconds.
-  shown.open(15.0, 2.0, true, "no-such-film.mp4");
+  shown.open({15.0, 2.0, true}, "no-such-film.mp4");
   tick(shown.driver, "film.last");
   CHECK(film.from == 0.0);
   CHECK(film.to == 15.0);
@@ -99,7 +102,7 @@ TEST_CASE("Film dialog: its buttons choose the whole run or its last 20 seconds"
 
 TEST_CASE("Film dialog: lists and boxes set quality, format and content") {
   ShownDialog shown;
-  shown.open(100.0, 2.0, true, "folder/no-such-film.mp4");
+  shown.open({100.0, 2.0, true}, "folder/no-such-film.mp4");
   const FilmSettings& film = shown.dialog.film();
   choose(shown.driver, "film.quality", "854 x 480, 15 per second");
   CHECK(film.quality == 'l');
@@ -122,15 +125,20 @@ TEST_CASE("Film dialog: lists and boxes set quality, format and content") {
   tick(shown.driver, "film.make");
   CHECK(shown.action == FilmDialog::Action::Film);
   CHECK_FALSE(shown.dialog.is_open());
+  shown.open({50.0, 3.0, true, 2}, "other.mp4");
+  choose(shown.driver, "film.format", "MP4, plays everywhere");
+  CHECK_FALSE(says(text_of(shown.driver), "Sound"));
+  choose(shown.driver, "film.format", "GIF, for pages without a player");
+  tick(shown.driver, "film.cancel");
   // The next film has the same form, at the present speed. A view without texts has none to hide.
-  shown.open(50.0, 3.0, false, "other.mp4");
+  shown.open({50.0, 3.0, false}, "other.mp4");
   CHECK(film.file == "other.gif");
   CHECK(film.quality == 'h');
   CHECK(film.speed == 3.0);
   CHECK_FALSE(says(text_of(shown.driver), "figures"));
   tick(shown.driver, "film.command");
   CHECK(shown.action == FilmDialog::Action::CopyCommand);
-  shown.open(50.0, 3.0, true, "other.mp4");
+  shown.open({50.0, 3.0, true}, "other.mp4");
   tick(shown.driver, "film.cancel");
   CHECK(shown.action == FilmDialog::Action::Cancel);
 }
@@ -144,16 +152,16 @@ TEST_CASE("Film dialog: a mistake is named, and makes no film") {
     CHECK(shown.action == FilmDialog::Action::None);
     CHECK(shown.dialog.is_open());
   };
-  shown.open(10.0, 2.0, true, "no-such-film.avi");
+  shown.open({10.0, 2.0, true}, "no-such-film.avi");
   refused("must end in one of .mp4, .webm, .gif, .mov, .mkv");
-  shown.open(0.0, 2.0, true, "no-such-film.mp4");
+  shown.open({0.0, 2.0, true}, "no-such-film.mp4");
   refused("must end after its start");
-  shown.open(10.0, 0.0, true, "no-such-film.mp4");
+  shown.open({10.0, 0.0, true}, "no-such-film.mp4");
   refused("greater than 0");
   const testing::TemporaryFolder folder;
   const std::string file = folder / "a.mp4";
   testing::write_bytes(file, "a film");
-  shown.open(10.0, 2.0, true, file);
+  shown.open({10.0, 2.0, true}, file);
   CHECK(says(text_of(shown.driver), "will be replaced"));
 }
 
