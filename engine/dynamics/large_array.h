@@ -26,7 +26,8 @@ struct LargeArrayAllocator {
     return static_cast<T*>(memory);
   }
   void deallocate(T* memory, std::size_t count) {
-    ::operator delete(memory, alignment(count * sizeof(T)));
+    const std::size_t bytes = count * sizeof(T);
+    ::operator delete(memory, bytes, alignment(bytes));
   }
   friend bool operator==(LargeArrayAllocator, LargeArrayAllocator) { return true; }
 

@@ -10,9 +10,9 @@ static std::atomic<std::size_t> allocated = 0;
 static std::atomic<std::size_t> in_use = 0;
 static std::atomic<std::size_t> most_in_use = 0;
 
-static void count(void* memory, std::size_t bytes) {
-  allocated += bytes;
-  const std::size_t now = in_use += malloc_usable_size(memory);
+static void count(std::size_t asked, std::size_t held) {
+  allocated += asked;
+  const std::size_t now = in_use += held;
   std::size_t most = most_in_use;
   while (most < now && !most_in_use.compare_exchange_weak(most, now)) {
   }
@@ -20,7 +20,7 @@ static void count(void* memory, std::size_t bytes) {
 
 static void* counted(void* memory, std::size_t bytes) {
   if (!memory) throw std::bad_alloc();
-  count(memory, bytes);
+  count(bytes, malloc_usable_size(memory));
   return memory;
 }
 
@@ -33,16 +33,20 @@ void* operator new(std::size_t bytes) {
   return counted(std::malloc(bytes), bytes);
 }
 
+// The usable size of aligned memory includes the address space between its end and the next
+// alignment, up to 2 MB by chance, which never becomes resident. So the requested bytes count.
 void* operator new(std::size_t bytes, std::align_val_t alignment) {
   void* memory = nullptr;
-  const int error = posix_memalign(&memory, static_cast<std::size_t>(alignment), bytes);
-  return counted(error == 0 ? memory : nullptr, bytes);
+  if (posix_memalign(&memory, static_cast<std::size_t>(alignment), bytes) != 0)
+    throw std::bad_alloc();
+  count(bytes, bytes);
+  return memory;
 }
 
 // std::stable_sort allocates its buffer here. The usual operator delete frees it.
 void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
   void* memory = std::malloc(bytes);
-  if (memory) count(memory, bytes);
+  if (memory) count(bytes, malloc_usable_size(memory));
   return memory;
 }
 
@@ -54,12 +58,9 @@ void operator delete(void* memory, std::size_t) noexcept {
   give_back(memory);
 }
 
-void operator delete(void* memory, std::align_val_t) noexcept {
-  give_back(memory);
-}
-
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  give_back(memory);
+void operator delete(void* memory, std::size_t bytes, std::align_val_t) noexcept {
+  in_use -= bytes;
+  std::free(memory);
 }
 
 std::size_t clatter::testing::allocated_bytes() {
