@@ -27,7 +27,7 @@ struct LargeArrayAllocator {
   }
   void deallocate(T* memory, std::size_t count) {
     const std::size_t bytes = count * sizeof(T);
-    ::operator delete(memory, bytes, alignment(bytes));
+    ::operator delete(memory, alignment(bytes));
   }
   friend bool operator==(LargeArrayAllocator, LargeArrayAllocator) { return true; }
 

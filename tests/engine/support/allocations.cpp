@@ -34,11 +34,14 @@ void* operator new(std::size_t bytes) {
 }
 
 // The usable size of aligned memory includes the address space between its end and the next
-// alignment, up to 2 MB by chance, which never becomes resident. So the requested bytes count.
+// alignment, up to 2 MB by chance, which never becomes resident. So the requested bytes count. Their
+// number lies before the memory.
 void* operator new(std::size_t bytes, std::align_val_t alignment) {
-  void* memory = nullptr;
-  if (posix_memalign(&memory, static_cast<std::size_t>(alignment), bytes) != 0)
-    throw std::bad_alloc();
+  const auto offset = static_cast<std::size_t>(alignment);
+  void* block = nullptr;
+  if (posix_memalign(&block, offset, offset + bytes) != 0) throw std::bad_alloc();
+  void* const memory = static_cast<char*>(block) + offset;
+  static_cast<std::size_t*>(memory)[-1] = bytes;
   count(bytes, bytes);
   return memory;
 }
@@ -58,9 +61,10 @@ void operator delete(void* memory, std::size_t) noexcept {
   give_back(memory);
 }
 
-void operator delete(void* memory, std::size_t bytes, std::align_val_t) noexcept {
-  in_use -= bytes;
-  std::free(memory);
+void operator delete(void* memory, std::align_val_t alignment) noexcept {
+  if (!memory) return;
+  in_use -= static_cast<std::size_t*>(memory)[-1];
+  std::free(static_cast<char*>(memory) - static_cast<std::size_t>(alignment));
 }
 
 std::size_t clatter::testing::allocated_bytes() {
