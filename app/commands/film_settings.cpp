@@ -230,8 +230,10 @@ void require_comparable(const RenderOptions& options) {
 
 void require_cells(const FilmState& film, std::span<const ComparedScene> scenes) {
   const int count = static_cast<int>(scenes.size());
+  const bool plots = !scenes[0].scene.view.plots.empty();
+  const Size gases = plots ? split_for_plots(film.size).gases.size : film.size;
   for (int number = 0; number < count; ++number) {
-    const Size cell = picture_cell(film.size, number, count).size;
+    const Size cell = picture_cell(gases, number, count).size;
     if (cell.width < kMinSize.width || cell.height < kMinSize.height) {
       throw UserError({"--size", 0, 0}, "the cell of a gas would be " + size_text(cell),
                       "give a size that leaves at least " + size_text(kMinSize) + " for each gas");

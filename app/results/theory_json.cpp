@@ -82,6 +82,11 @@ static bool is_homogeneous_gas(const Scene& scene) {
   return !walled && scene.particles.count > 1 && !scene.gravity;
 }
 
+bool cools_freely(const Scene& scene) {
+  const bool loses = scene.particles.restitution < 1.0 || scene.spins();
+  return is_homogeneous_gas(scene) && !scene.bulk_drive && loses;
+}
+
 std::optional<double> haff_rate(const Scene& scene) {
   if (!is_homogeneous_gas(scene) || scene.spins() || scene.bulk_drive) return std::nullopt;
   return haff_rate_periodic(scene.packing_fraction(), scene.particles.restitution,

@@ -18,6 +18,9 @@ std::optional<VibratedGas> vibrated_gas(const Scene& scene);
 /// acts.
 std::optional<Atmosphere> atmosphere(const Scene& scene);
 
+/// Whether the gas has neither walls nor a drive and loses energy in collisions.
+bool cools_freely(const Scene& scene);
+
 /// k of Haff's law in a periodic box (theory 6.6). Absent unless the scene has smooth particles
 /// that cool without any force.
 std::optional<double> haff_rate(const Scene& scene);

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "app/plots/plot_recorder.h"
 #include "app/runs/film_cell.h"
 #include "app/system/interrupt.h"
 #include "engine/checkpoint/archive.h"
@@ -18,70 +19,83 @@ namespace {
 template <int D>
 class CompanionRun final : public Companion {
  public:
-  CompanionRun(const ComparedScene& compared, const View& view, double exposure, int threads)
-      : compared_(compared), view_(view), exposure_(exposure) {
-    run_.emplace(compared.scene, compared.seed, interrupted);
-    start("", threads);
+  CompanionRun(const ComparedScene& compared, const View& view, double exposure)
+      : compared_(compared), view_(view), exposure_(exposure) {}
+
+  // Starts the run from time 0.
+  void begin(double speed, int threads) {
+    run_.emplace(compared_.scene, compared_.seed, interrupted);
+    start("", "", speed, threads);
   }
-  CompanionRun(const ComparedScene& compared, const View& view, double exposure, int threads,
-               const std::string& saved, const std::string& file)
-      : compared_(compared), view_(view), exposure_(exposure) {
-    std::string scene, shown;
+  // Continues the result of save(). `file` is the name of the checkpoint.
+  void resume(const std::string& saved, const std::string& file, double speed, int threads) {
+    std::string scene, shown, plots;
     std::uint64_t seed = 0;
     RunState<D> state;
     ArchiveReader reader(saved, file);
     reader(scene, seed);
-    if (scene != scene_to_toml(compared.scene) || seed != compared.seed) {
+    if (scene != scene_to_toml(compared_.scene) || seed != compared_.seed) {
       throw UserError({file}, "the film of the checkpoint compares other scenes or seeds",
                       "give the same scenes, or begin another film without --resume");
     }
-    reader(state, shown);
+    reader(state, shown, plots);
     reader.finish();
-    run_.emplace(compared.scene, seed, state, interrupted);
-    start(shown, threads);
+    run_.emplace(compared_.scene, seed, state, interrupted);
+    start(shown, plots, speed, threads);
   }
 
   bool run_until(double time) override {
-    return run_->run_until(time, kNoLimit, kNoLimit, interrupted);
+    const auto run = [this](double end) {
+      return run_->run_until(end, kNoLimit, kNoLimit, interrupted);
+    };
+    return plots_ ? plots_->run_until(time, run) : run(time);
   }
+  PlottedGas plotted() override { return plots_->gas(); }
   Snapshot snapshot() override { return run_->snapshot(); }
   RangeEnds first_ranges(double last) const override {
     return clatter::first_ranges(*run_, compared_.scene, view_, exposure_, last);
   }
   std::uint64_t state_hash() const override { return run_->simulation().state_hash(); }
-  std::string save() const override {
+  std::string save() override {
     std::string scene = scene_to_toml(compared_.scene), shown = run_->save_shown();
+    std::string plots = plots_ ? plots_->save() : "";
     std::uint64_t seed = compared_.seed;
     RunState<D> state = run_->simulation().save();
     ArchiveWriter writer;
-    writer(scene, seed, state, shown);
+    writer(scene, seed, state, shown, plots);
     return writer.written();
   }
 
  private:
-  void start(const std::string& shown, int threads) {
+  void start(const std::string& shown, const std::string& plots, double speed, int threads) {
     run_->use_threads(threads);
     run_->show(view_, shown, exposure_);
+    if (view_.plots.empty()) return;
+    plots_.emplace(*run_, view_, speed, plots);
+    run_->on_change = [this](Simulation<D>& next) { plots_->follow(next); };
   }
 
   ComparedScene compared_;
   View view_;
   double exposure_;
   std::optional<ScheduledRun<D>> run_;
+  std::optional<PlotRecorder<D>> plots_;  // absent: no plots
 };
 
 }  // namespace
 
 std::unique_ptr<Companion> companion_of(const ComparedScene& compared, const View& view,
-                                        double exposure, int threads, const std::string& saved,
-                                        const std::string& file) {
+                                        double exposure, double speed, int threads,
+                                        const std::string& saved, const std::string& file) {
   return with_dimension(
       compared.scene.dimension(), [&](auto dimension) -> std::unique_ptr<Companion> {
+        auto companion = std::make_unique<CompanionRun<dimension>>(compared, view, exposure);
         if (saved.empty()) {
-          return std::make_unique<CompanionRun<dimension>>(compared, view, exposure, threads);
+          companion->begin(speed, threads);
+        } else {
+          companion->resume(saved, file, speed, threads);
         }
-        return std::make_unique<CompanionRun<dimension>>(compared, view, exposure, threads, saved,
-                                                         file);
+        return companion;
       });
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "app/plots/plots.h"
 #include "app/runs/compared_scenes.h"
 #include "engine/publish/snapshot.h"
 #include "render/layers/renderer.h"
@@ -19,19 +20,21 @@ class Companion {
   virtual bool run_until(double time) = 0;
   /// The gas at its time.
   virtual Snapshot snapshot() = 0;
+  /// The gas for plots, without a name. Only if the view has plots. Valid until the next call.
+  virtual PlottedGas plotted() = 0;
   /// As first_ranges().
   virtual RangeEnds first_ranges(double last) const = 0;
   /// As Simulation::state_hash().
   virtual std::uint64_t state_hash() const = 0;
   /// The run, its scene and its averages, for a checkpoint.
-  virtual std::string save() const = 0;
+  virtual std::string save() = 0;
 };
 
-/// Starts the run of a scene with the averages of a view, or continues the result of save(); empty:
-/// none. `file` is the name of the checkpoint. Throws UserError if `saved` has another scene or
-/// seed.
+/// Starts the run of a scene with the averages and plots of a view, or continues the result of
+/// save(); empty: none. The film has `speed` time units per second. `file` is the name of the
+/// checkpoint. Throws UserError if `saved` has another scene or seed.
 std::unique_ptr<Companion> companion_of(const ComparedScene& compared, const View& view,
-                                        double exposure, int threads, const std::string& saved,
-                                        const std::string& file);
+                                        double exposure, double speed, int threads,
+                                        const std::string& saved, const std::string& file);
 
 }  // namespace clatter

@@ -38,9 +38,9 @@ static void visit(Archive& io, CompanionState& state) {
 template <class Archive>
 static void visit(Archive& io, FilmState& state) {
   auto& [times, size, samples, shutter, transparent, overlay, sound, next, begin, ranges, camera,
-         shown, checksums, notes, companions] = state;
+         shown, plots, checksums, notes, companions] = state;
   io(times, size, samples, shutter, transparent, overlay, sound, next, begin, ranges, camera, shown,
-     checksums, notes, companions);
+     plots, checksums, notes, companions);
 }
 
 std::string to_bytes(FilmState state) {
@@ -75,7 +75,7 @@ static std::vector<OverlayText> texts_of(const std::vector<ComparedScene>& compa
 template <int D>
 Film<D>::Film(Run<D>& run, const std::vector<ComparedScene>& compared, const View& view,
               FilmState state, int threads, const Gl& gl)
-    : run_(run), scene_(compared.front().scene), state_(std::move(state)) {
+    : run_(run), scene_(compared.front().scene), view_(view), state_(std::move(state)) {
   const std::size_t companions = compared.size() - 1;
   if (state_.next > 0 && state_.companions.size() != companions) {
     throw UserError({"--resume", 0, 0},
@@ -86,12 +86,17 @@ Film<D>::Film(Run<D>& run, const std::vector<ComparedScene>& compared, const Vie
   state_.companions.resize(companions);
   run_.scheduled().show(view, state_.shown, state_.exposure());
   run_.film_state = [this] { return state_now(); };
+  if (!view.plots.empty()) {
+    plots_.emplace(run_.scheduled(), view_, state_.times.speed, state_.plots);
+    strip_.emplace(gl, split_for_plots(state_.size).plots.size, state_.size, state_.transparent);
+  }
+  follow_changes();
   add_cells(compared, view, threads, gl);
   if (state_.ranges) {
     cells_[0].fix(*state_.ranges);
     for (std::size_t k = 0; k < companions; ++k) cells_[k + 1].fix(state_.companions[k].ranges);
   }
-  if (state_.sound && state_.sound->synthesiser) follow(run_.simulation());
+  if (state_.sound && state_.sound->synthesiser) clicks_.follow(run_.simulation());
 }
 
 // The cells of the run and of its companions, and the companions.
@@ -99,27 +104,30 @@ template <int D>
 void Film<D>::add_cells(const std::vector<ComparedScene>& compared, const View& view, int threads,
                         const Gl& gl) {
   const std::vector<OverlayText> texts = texts_of(compared, state_.times.speed);
+  const Size whole = strip_ ? split_for_plots(state_.size).gases.size : state_.size;
   const auto add = [&](std::size_t k, const View& own) {
     const PictureCell cell =
-        picture_cell(state_.size, static_cast<int>(k), static_cast<int>(texts.size()));
+        picture_cell(whole, static_cast<int>(k), static_cast<int>(texts.size()));
     cells_.emplace_back(gl, cell.size, state_.samples, state_.transparent, own, texts[k]);
   };
   add(0, view);
   for (std::size_t k = 1; k < compared.size(); ++k) {
     View own = compared[k].scene.view;
     own.overlay = own.overlay && view.overlay;
-    companions_.push_back(companion_of(compared[k], own, state_.exposure(), threads,
-                                       state_.companions[k - 1].run, "--resume"));
+    own.plots = view.plots;
+    companions_.push_back(companion_of(compared[k], own, state_.exposure(), state_.times.speed,
+                                       threads, state_.companions[k - 1].run, "--resume"));
     add(k, own);
   }
 }
 
 // A single picture needs no film state; it is drawn again.
 template <int D>
-std::string Film<D>::state_now() const {
+std::string Film<D>::state_now() {
   if (state_.times.count == 1) return "";
   FilmState state = state_;
   state.shown = run_.scheduled().save_shown();
+  if (plots_) state.plots = plots_->save();
   for (std::size_t k = 0; k < companions_.size(); ++k) {
     state.companions[k].run = companions_[k]->save();
   }
@@ -132,8 +140,7 @@ long Film<D>::draw(const FrameRange& frames, FrameSink& sink, Progress& progress
   state_.begin = frames.begin;
   for (; state_.next < frames.end; ++state_.next) {
     const long frame = state_.next;
-    if (!run_.until(state_.times.of(frame), progress) ||
-        !companions_until(state_.times.of(frame)) || !choose_ranges(progress) ||
+    if (!reach(state_.times.of(frame), progress) || !choose_ranges(progress) ||
         !choose_sound(progress)) {
       return frame;
     }
@@ -169,6 +176,13 @@ template <int D>
 void Film<D>::end_part() {
   state_.begin.reset();
   run_.mark();
+}
+
+// Brings all gases to a time. Returns false at an early end.
+template <int D>
+bool Film<D>::reach(double time, Progress& progress) {
+  const auto run = [&](double end) { return run_.until(end, progress); };
+  return (plots_ ? plots_->run_until(time, run) : run(time)) && companions_until(time);
 }
 
 // Brings the companions to the time of the run. Returns false at an interrupt or a stop.
@@ -209,13 +223,25 @@ std::vector<Snapshot> Film<D>::snapshots() {
 
 template <int D>
 Image Film<D>::picture_of(const std::vector<Snapshot>& snapshots) {
-  Image first = cells_[0].draw(snapshots[0], *state_.camera);
-  if (companions_.empty()) return first;
-  std::vector<Image> pictures = {std::move(first)};
+  std::vector<Image> pictures = {cells_[0].draw(snapshots[0], *state_.camera)};
   for (std::size_t k = 0; k < companions_.size(); ++k) {
     pictures.push_back(cells_[k + 1].draw(snapshots[k + 1], *state_.companions[k].camera));
   }
-  return joined_cells(state_.size, pictures);
+  if (!strip_) return joined_cells(state_.size, pictures);
+  const auto [gases, plots] = split_for_plots(state_.size);
+  return joined(state_.size, {{gases, joined_cells(gases.size, pictures)}, {plots, strip()}});
+}
+
+// The picture of the plots. Several gases have the letters of their cells.
+template <int D>
+Image Film<D>::strip() {
+  std::vector<PlottedGas> gases = {plots_->gas()};
+  for (const auto& companion : companions_) gases.push_back(companion->plotted());
+  for (std::size_t k = 0; k < gases.size(); ++k) gases[k].name = std::string(1, static_cast<char>('A' + k));
+  const ThemeColours theme = theme_of(view_);
+  std::vector<std::optional<LivePlot>> plots;
+  for (const FilmPlot plot : view_.plots) plots.push_back(film_plot(plot, gases, theme));
+  return strip_->draw(plots, theme);
 }
 
 template <int D>
@@ -249,7 +275,7 @@ bool Film<D>::choose_sound(Progress& progress) {
   // The look-ahead may have been interrupted.
   if (!run_.until(run_.simulation().time(), progress)) return false;
   state_.sound->synthesiser.emplace().use(scale);
-  follow(run_.simulation());
+  clicks_.follow(run_.simulation());
   return true;
 }
 
@@ -279,9 +305,11 @@ SoundScale Film<D>::listen_ahead() const {
 }
 
 template <int D>
-void Film<D>::follow(Simulation<D>& next) {
-  clicks_.follow(next);
-  run_.scheduled().on_change = [this](Simulation<D>& changed) { clicks_.follow(changed); };
+void Film<D>::follow_changes() {
+  run_.scheduled().on_change = [this](Simulation<D>& next) {
+    if (state_.sound && state_.sound->synthesiser) clicks_.follow(next);
+    if (plots_) plots_->follow(next);
+  };
 }
 
 // The samples between the previous frame and the next.

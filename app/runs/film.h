@@ -7,11 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "app/plots/plot_recorder.h"
 #include "app/runs/companion.h"
 #include "app/runs/compared_scenes.h"
 #include "app/runs/film_cell.h"
 #include "app/runs/run.h"
 #include "engine/publish/click_recorder.h"
+#include "render/layers/plot_strip.h"
 #include "render/output/frame_sink.h"
 #include "render/sound/synthesiser.h"
 
@@ -65,6 +67,7 @@ struct FilmState {
   std::optional<RangeEnds> ranges;  ///< colour ranges; absent: not chosen yet
   std::optional<Camera> camera;     ///< shows the whole box; absent: not chosen yet
   std::string shown;                ///< fields of the past, see ScheduledRun::save_shown()
+  std::string plots = {};           ///< see PlotRecorder::save(); empty: no plots
   std::vector<std::uint32_t> checksums = {};    ///< of the pieces before `next`, see FrameSink
   std::vector<PngText> notes = {};              ///< of the picture before `next`
   std::vector<CompanionState> companions = {};  ///< of a film that compares gases, in order
@@ -82,7 +85,7 @@ std::optional<FilmState> film_of(const Resumed& resumed);
 /// Films a run, frame by frame. Automatic colour ranges are chosen once, from the first averaging
 /// window of the whole film. The run computes this window in advance. The same holds for the scale
 /// of the sound. Companions are drawn in cells beside the run, at the same times and with the same
-/// ranges.
+/// ranges. Plots of all gases are beside the cells.
 template <int D>
 class Film {
  public:
@@ -101,7 +104,8 @@ class Film {
   void end_part();
 
  private:
-  std::string state_now() const;
+  std::string state_now();
+  bool reach(double time, Progress& progress);
   void add_cells(const std::vector<ComparedScene>& compared, const View& view, int threads,
                  const Gl& gl);
   bool companions_until(double time);
@@ -111,17 +115,21 @@ class Film {
   Image picture_of(const std::vector<Snapshot>& snapshots);
   bool choose_sound(Progress& progress);
   SoundScale listen_ahead() const;
-  void follow(Simulation<D>& next);
+  void follow_changes();
+  Image strip();
   void render_sound(FrameSink& sink);
   void end_sound(FrameSink& sink) const;
   std::vector<PngText> notes() const;
 
   Run<D>& run_;
   Scene scene_;
+  View view_;
   FilmState state_;
   std::vector<std::unique_ptr<Companion>> companions_;
   std::deque<FilmCell> cells_;  ///< of the run, then of its companions
   ClickRecorder<D> clicks_;     ///< follows the run from the first frame on, if the film has sound
+  std::optional<PlotRecorder<D>> plots_;  ///< absent: no plots
+  std::optional<PlotStrip> strip_;        ///< present with plots
 };
 
 extern template class Film<2>;

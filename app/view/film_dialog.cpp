@@ -18,6 +18,8 @@ namespace {
 
 constexpr double kLastSeconds = 20.0;  // of the film, for its button
 constexpr const char* kDialog = "film dialog";
+constexpr const char* kPlots =  // of a scene without own plots
+    R"(view.plots=["temperature", "energy", "density_profile"])";
 
 struct QualityName {
   char letter;
@@ -66,6 +68,9 @@ std::vector<std::string> film_command(const FilmSettings& film,
   add(true, {"--to", number_text(film.to), "--speed", number_text(film.speed)});
   add(film.quality != 'm', {std::string("-q") + film.quality});
   add(!film.overlay, {"--no-overlay"});
+  if (film.plots != film.own_plots) {
+    add(true, {"--set", film.plots ? kPlots : "view.plots=[]"});
+  }
   add(film.sound && format && format->sound && scenes.size() == 1, {"--sound"});
   add(film.motion_blur, {"--shutter", "0.5"});
   add(film.transparent && format && format->alpha, {"--transparent"});
@@ -79,6 +84,7 @@ void FilmDialog::open(const FilmedRun& run, const std::string& file) {
   film_.from = 0.0;
   film_.to = run_.latest;
   film_.speed = run.speed;
+  film_.plots = film_.own_plots = run.plots;
   const FilmFormat* former = format_of(film_.file);
   film_.file = file;
   if (former)
@@ -171,6 +177,10 @@ void FilmDialog::choose_content(Controls& controls) {
     controls.toggle("film.overlay", "Title, figures and scales",
                     "Time, temperature, colour bars and scale bar, too", film_.overlay);
   }
+  controls.toggle("film.plots", "Plots beside the gas",
+                  run_.plots ? "The plots of the scene, view.plots"
+                             : "Temperature, energy and the profile of the density",
+                  film_.plots);
   controls.toggle("film.blur", "Motion blur", "A shutter that is open for half of the time",
                   film_.motion_blur);
   const FilmFormat* format = format_of(film_.file);

@@ -17,6 +17,8 @@ struct FilmSettings {
   char quality = 'm';        ///< as of `clatter render --quality`: l, m or h
   std::string file;          ///< name; the extension selects the format
   bool overlay = true;       ///< title, time, colour bars and scale bar
+  bool plots = false;        ///< plots beside the gas
+  bool own_plots = false;    ///< whether the scene has plots
   bool sound = false;        ///< a click at each collision, where the format has sound
   bool motion_blur = false;  ///< a shutter that is open for half of the time
   bool transparent = false;  ///< no background, where the format has alpha
@@ -28,6 +30,7 @@ struct FilmedRun {
   double speed = 1.0;     ///< simulation time per second, as it is shown
   bool overlay = true;    ///< whether its pictures have title, figures and scales
   std::size_t gases = 1;  ///< number of compared gases; a film of several has no sound
+  bool plots = false;     ///< whether its scene has plots
 };
 
 /// A film format that the dialog offers.

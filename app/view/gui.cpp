@@ -9,7 +9,7 @@
 
 #include "app/view/lesson.h"
 #include "app/view/panels.h"
-#include "app/view/plots.h"
+#include "app/plots/plots.h"
 #include "app/view/style.h"
 #include "app/view/table_plots.h"
 #include "app/view/top_bar.h"

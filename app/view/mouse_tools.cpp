@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "app/view/plot_colours.h"
+#include "app/plots/plot_colours.h"
 #include "app/view/style.h"
 #include "render/layers/fonts.h"
 #include "render/picking.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "app/view/plot_colours.h"
+#include "app/plots/plot_colours.h"
 #include "engine/scene/enum_names.h"
 #include "engine/scene/text.h"
 #include "render/label.h"

@@ -116,7 +116,7 @@ void Viewport::show(int x, int y) const {
 Image Viewport::picture() const {
   std::vector<Image> cells;
   for (const Picture& picture : pictures_) cells.push_back(picture.canvas.read());
-  return joined_cells(size_, cells);
+  return joined_cells(size_, std::move(cells));
 }
 
 WindowMap Viewport::map(ImVec2 corner, float scale) const {

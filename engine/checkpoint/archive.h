@@ -63,6 +63,15 @@ class Archive {
     for (T& component : vector) item(component);
   }
 
+  template <class T, int Most>
+  void item(Eigen::Matrix<T, Eigen::Dynamic, 1, Eigen::ColMajor, Most, 1>& vector) {
+    auto size = static_cast<std::uint8_t>(vector.size());
+    self().number(size);
+    self().require(size <= Most);
+    vector.resize(size);
+    for (T& component : vector) item(component);
+  }
+
   template <class T, std::size_t Size>
   void item(std::array<T, Size>& array) {
     for (T& element : array) item(element);

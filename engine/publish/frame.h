@@ -12,23 +12,9 @@
 #include "engine/publish/collision_lookahead.h"
 #include "engine/publish/live_profile.h"
 #include "engine/publish/snapshot.h"
+#include "engine/publish/tally.h"
 
 namespace clatter {
-
-/// Sums since a run's start. The difference of two frames gives the sums between them, even if
-/// frames between were dropped.
-struct Tally {
-  double time = 0.0;              ///< covered by the sums
-  VecX temperature_integral;      ///< time integrals of T_x, T_y and, for spheres, T_z
-  double walls_in = 0.0;          ///< energy input of the walls
-  double bulk_in = 0.0;           ///< energy input of kicks
-  double nudges_in = 0.0;         ///< energy input of nudges
-  double gravity_in = 0.0;        ///< work of gravity
-  double dissipated = 0.0;        ///< energy lost between particles, > 0
-  double undissipated = 0.0;      ///< additional loss without t_c
-  std::uint64_t collisions = 0;   ///< between particles
-  std::uint64_t elasticised = 0;  ///< of these, made elastic by t_c
-};
 
 /// Estimate of the error due to t_c: the elasticised share of dissipation and collisions.
 struct ContactTimeError {

@@ -18,11 +18,31 @@ static IntVec<D> columns_in(const Model<D>& model, Axis axis) {
 template <int D>
 LiveProfile<D>::LiveProfile(Simulation<D>& simulation, double window, Axis axis)
     : axis_(axis),
+      start_(simulation.time() + window),
       observer_(simulation, columns_in(simulation.model(), axis),
                 moment_layout<D>(profiled_fields(axis), simulation.model().spins)) {
+  watch(simulation, window);
+}
+
+template <int D>
+LiveProfile<D>::LiveProfile(Simulation<D>& simulation, double window, Axis axis,
+                            ArchiveReader& saved)
+    : axis_(axis),
+      start_(0.0),
+      observer_(simulation, columns_in(simulation.model(), axis),
+                moment_layout<D>(profiled_fields(axis), simulation.model().spins)) {
+  saved(*this);
+  watch(simulation, window);
+}
+
+template <int D>
+void LiveProfile<D>::watch(Simulation<D>& simulation, double window) {
   simulation.add_observer(observer_);
-  simulation.every(simulation.time() + window, window,
-                   [this](double) { sums_.add(observer_.close_window()); });
+  const auto close = [this](double) {
+    sums_.add(observer_.close_window());
+    ++closed_;
+  };
+  simulation.every(start_, window, close, closed_);
 }
 
 template <int D>

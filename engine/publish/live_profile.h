@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
+#include "engine/checkpoint/archive.h"
 #include "engine/dynamics/simulation.h"
 #include "engine/measure/balance.h"
 #include "engine/measure/field_maps.h"
@@ -25,14 +27,27 @@ class LiveProfile {
   /// Averages over windows of length `window` (simulation time); their scatter gives the standard
   /// errors. Columns are about one diameter wide, at most 40 columns.
   LiveProfile(Simulation<D>& simulation, double window, Axis axis);
+  /// Continues a saved profile. The simulation must be at the same time under the same laws.
+  LiveProfile(Simulation<D>& simulation, double window, Axis axis, ArchiveReader& saved);
   LiveProfile(const LiveProfile&) = delete;
   LiveProfile& operator=(const LiveProfile&) = delete;
 
   /// The averages over all complete windows; empty before two windows are complete.
   Profile profile() const;
 
+  /// Visits the members that a checkpoint keeps.
+  template <class Archive>
+  void visit(Archive& io) {
+    auto& [axis, start, closed, observer, sums] = *this;
+    io(start, closed, observer, sums);
+  }
+
  private:
+  void watch(Simulation<D>& simulation, double window);
+
   Axis axis_;
+  double start_;              // simulation time at which the first window closes
+  std::uint64_t closed_ = 0;  // windows closed since then
   CellIntegrals<D> observer_;
   PartSums<CellSums> sums_;
 };

@@ -137,8 +137,8 @@ class RunOf : public WatchedRun {
   std::optional<LiveResiduals<D>> residuals_;
   std::unique_ptr<LiveObservables<D>> observables_;  // absent: the scene has none
   bool same_laws_ = false;  // the next simulation has the laws of the present one
-  Tally tally_;
-  Tally tally_at_laws_;  // at the last change of laws
+  Tally tally_ = empty_tally(D);
+  Tally tally_at_laws_ = tally_;  // at the last change of laws
   std::shared_ptr<const Scene> started_;
   std::shared_ptr<const Scene> scene_;  // of the last frame
   RunRecord<D> record_;
@@ -158,8 +158,6 @@ RunOf<D>::RunOf(const Scene& scene, std::uint64_t seed, State<D> start, std::siz
       started_(std::make_shared<const Scene>(scene)),
       record_(record_bytes),
       record_bytes_(record_bytes) {
-  tally_.temperature_integral = Vec<D>::Zero();
-  tally_at_laws_ = tally_;
   run_.show(scene.view);
   observe_all();
   SavedState<D> first = saved_state();
@@ -256,17 +254,7 @@ void RunOf<D>::show_profile(Profiled what, Axis axis) {
 
 template <int D>
 void RunOf<D>::close_window() {
-  const WindowTotals<D> window = totals_->close_window();
-  tally_.time += window.duration;
-  tally_.temperature_integral += window.duration * window.temperature;
-  tally_.walls_in += window.walls_in;
-  tally_.bulk_in += window.bulk_in;
-  tally_.nudges_in += window.nudges_in;
-  tally_.gravity_in += window.gravity_in;
-  tally_.dissipated += window.dissipated;
-  tally_.undissipated += window.undissipated;
-  tally_.collisions += static_cast<std::uint64_t>(window.collisions);
-  tally_.elasticised += static_cast<std::uint64_t>(window.elasticised);
+  add(tally_, totals_->close_window());
 }
 
 // The present state. The particles of the start are those of the run's start.

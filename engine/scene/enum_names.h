@@ -68,6 +68,16 @@ inline constexpr std::array<Named<LecturePlot>, 5> kLecturePlots = {
      {"velocities", LecturePlot::Velocities},
      {"profile", LecturePlot::Profile}}};
 
+inline constexpr std::array<Named<FilmPlot>, 8> kFilmPlots = {
+    {{"temperature", FilmPlot::Temperature},
+     {"energy", FilmPlot::Energy},
+     {"velocities", FilmPlot::Velocities},
+     {"density_profile", FilmPlot::DensityProfile},
+     {"temperature_profile", FilmPlot::TemperatureProfile},
+     {"stress_profile", FilmPlot::StressProfile},
+     {"heat_flux_profile", FilmPlot::HeatFluxProfile},
+     {"dissipation_profile", FilmPlot::DissipationProfile}}};
+
 inline constexpr std::array<Named<Axis>, 3> kAxes = {
     {{"x", Axis::X}, {"y", Axis::Y}, {"z", Axis::Z}}};
 

@@ -254,6 +254,14 @@ static void check_axes(const Scene& scene, const toml::table& root, const std::s
   check("measure.radial_distribution_profile.axis", scene.measure.radial_distribution_profile.axis);
 }
 
+/// Throws if films have too many plots.
+static void check_plots(const Scene& scene, const toml::table& root, const std::string& file) {
+  if (scene.view.plots.size() <= View::kMostPlots) return;
+  throw UserError(place_of(root, "view.plots", file),
+                  "films have at most " + std::to_string(View::kMostPlots) + " plots",
+                  "remove some of view.plots");
+}
+
 void check_scene(const Scene& scene, const toml::table& root, const std::string& file) {
   check_pairs(scene, root, file);
   check_speeds(scene, root, file);
@@ -265,6 +273,7 @@ void check_scene(const Scene& scene, const toml::table& root, const std::string&
   check_observables(scene, root, file);
   check_camera(scene, root, file);
   check_captions(scene, root, file);
+  check_plots(scene, root, file);
 }
 
 void check_followed(const Scene& scene, const toml::table& root, const std::string& file) {

@@ -97,8 +97,23 @@ struct Lecture {
   LecturePlot plot = LecturePlot::Temperature;
 };
 
+/// A plot beside the gas in films. The profiles are along Measure::profile_axis, in the order of
+/// profiled_fields().
+enum class FilmPlot {
+  Temperature,
+  Energy,
+  Velocities,
+  DensityProfile,
+  TemperatureProfile,
+  StressProfile,
+  HeatFluxProfile,
+  DissipationProfile
+};
+
 /// Settings of pictures.
 struct View {
+  static constexpr std::size_t kMostPlots = 4;
+
   ColourBy colour_by = ColourBy::Speed;
   std::optional<Field> field;              ///< the heatmap below the particles; absent: none
   double window = 20.0;                    ///< averaging time of the live field, > 0
@@ -115,6 +130,7 @@ struct View {
   std::optional<Rgb> background;   ///< absent: as the theme
   bool grid = false;               ///< lines over the box, spaced by the length of the scale bar
   bool overlay = true;             ///< time, title, captions, colour bar, scale bar
+  std::vector<FilmPlot> plots = {};  ///< beside the gas in films, at most kMostPlots
   std::optional<double> trails;    ///< duration of the particles' trails, > 0; absent: none
   std::optional<double> card;  ///< seconds of the title card at a film's start, > 0; absent: none
   /// Direction to the viewer of spheres, in degrees: 0, 0 is along z, from the front; azimuth turns

@@ -127,6 +127,10 @@ inline constexpr auto kViewKeys = key_table(
      {"background", "", "Colour of the background. Without a value the theme sets it."},
      {"grid", "", "Grid lines over the box. Their spacing is the length of the scale bar."},
      {"overlay", "", "Title, captions, time, colour bar and scale bar."},
+     {"plots", "",
+      "Plots beside the gas in films and pictures, at most 4. Profiles are along "
+      "`measure.profile_axis`.",
+      "render"},
      {"trails", "t", "Duration of the particles' trails. Without a value: none."},
      {"card", "s",
       "Time of title and caption at the start of a film, while the gas moves. They fade out in the "
@@ -166,6 +170,7 @@ void visit_view(Visitor& io, View& view, int dimension) {
   io.value(kViewKeys.at("background"), view.background, Limits{});
   io.value(kViewKeys.at("grid"), view.grid);
   io.value(kViewKeys.at("overlay"), view.overlay);
+  io.choice(kViewKeys.at("plots"), view.plots, kFilmPlots);
   io.value(kViewKeys.at("trails"), view.trails, times);
   io.value(kViewKeys.at("card"), view.card, times);
   if (dimension == 3) {

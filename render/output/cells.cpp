@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace clatter {
 
@@ -14,23 +15,42 @@ PictureCell picture_cell(Size whole, int number, int count) {
   return {left, top, {right - left, bottom - top}};
 }
 
-Image joined_cells(Size whole, const std::vector<Image>& cells) {
+PlotSplit split_for_plots(Size whole) {
+  constexpr double kShare = 0.3;
+  if (whole.width >= whole.height) {
+    const int gases = whole.width - static_cast<int>(kShare * whole.width);
+    return {{0, 0, {gases, whole.height}}, {gases, 0, {whole.width - gases, whole.height}}};
+  }
+  const int gases = whole.height - static_cast<int>(kShare * whole.height);
+  return {{0, 0, {whole.width, gases}}, {0, gases, {whole.width, whole.height - gases}}};
+}
+
+Image joined(Size whole, const std::vector<PlacedPicture>& parts) {
   constexpr std::size_t kChannels = 4;
   const auto row_bytes = [](int pixels) { return kChannels * static_cast<std::size_t>(pixels); };
   Image picture{whole, std::vector<unsigned char>(row_bytes(whole.width) *
                                                   static_cast<std::size_t>(whole.height))};
-  const auto count = static_cast<int>(cells.size());
-  for (int number = 0; number < count; ++number) {
-    const PictureCell place = picture_cell(whole, number, count);
-    const std::size_t length = row_bytes(place.size.width);
-    const unsigned char* from = cells[static_cast<std::size_t>(number)].rgba.data();
-    for (int y = 0; y < place.size.height; ++y, from += length) {
+  for (const auto& [cell, part] : parts) {
+    const std::size_t length = row_bytes(cell.size.width);
+    const unsigned char* from = part.rgba.data();
+    for (int y = 0; y < cell.size.height; ++y, from += length) {
       const std::size_t to =
-          row_bytes(whole.width) * static_cast<std::size_t>(place.top + y) + row_bytes(place.left);
+          row_bytes(whole.width) * static_cast<std::size_t>(cell.top + y) + row_bytes(cell.left);
       std::copy_n(from, length, picture.rgba.data() + to);
     }
   }
   return picture;
+}
+
+Image joined_cells(Size whole, std::vector<Image> cells) {
+  const auto count = static_cast<int>(cells.size());
+  if (count == 1) return std::move(cells.front());
+  std::vector<PlacedPicture> parts;
+  for (int number = 0; number < count; ++number) {
+    parts.push_back({picture_cell(whole, number, count),
+                     std::move(cells[static_cast<std::size_t>(number)])});
+  }
+  return joined(whole, parts);
 }
 
 }  // namespace clatter

@@ -18,7 +18,25 @@ struct PictureCell {
 /// Cell `number` of `count` in a picture of `whole` size. Cells are in a row; four are in two rows.
 PictureCell picture_cell(Size whole, int number, int count);
 
+/// The parts of a picture with plots.
+struct PlotSplit {
+  PictureCell gases, plots;
+};
+
+/// The parts of a picture of `whole` size: the plots are right of the gases, or below them if the
+/// picture is higher than wide.
+PlotSplit split_for_plots(Size whole);
+
+/// A picture at the place of a cell of its size.
+struct PlacedPicture {
+  PictureCell cell;
+  Image picture;
+};
+
+/// The picture of `whole` size with these parts.
+Image joined(Size whole, const std::vector<PlacedPicture>& parts);
+
 /// The picture of `whole` size with these cells.
-Image joined_cells(Size whole, const std::vector<Image>& cells);
+Image joined_cells(Size whole, std::vector<Image> cells);
 
 }  // namespace clatter

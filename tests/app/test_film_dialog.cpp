@@ -68,6 +68,16 @@ TEST_CASE("Film dialog: the command has all settings, and none that the format l
                                                    "--from", "1.5", "--to", "7", "--speed", "0.1",
                                                    "-qh", "--no-overlay", "--sound", "--shutter",
                                                    "0.5", "--transparent", "--out", "b.webm"});
+  film.plots = true;
+  const Words plotted = film_command(film, {"s.toml"}, 1);
+  const auto set = std::ranges::find(plotted, "--set");
+  REQUIRE(set < plotted.end() - 1);
+  CHECK(*(set + 1) == R"(view.plots=["temperature", "energy", "density_profile"])");
+  film.own_plots = true;
+  CHECK(std::ranges::count(film_command(film, {"s.toml"}, 1), "--set") == 0);
+  film.plots = false;
+  CHECK(std::ranges::count(film_command(film, {"s.toml"}, 1), "view.plots=[]") == 1);
+  film.own_plots = false;
   const Words several = film_command(film, {"s.toml", "t.toml"}, 1);
   CHECK(several[3] == "t.toml");
   CHECK(std::ranges::count(several, "--sound") == 0);
@@ -119,6 +129,9 @@ TEST_CASE("Film dialog: lists and boxes set quality, format and content") {
   CHECK_FALSE(film.overlay);
   tick(shown.driver, "film.blur");
   CHECK(film.motion_blur);
+  CHECK_FALSE(film.plots);
+  tick(shown.driver, "film.plots");
+  CHECK(film.plots);
   choose(shown.driver, "film.format", "GIF, for pages without a player");
   CHECK(film.file == "folder/no-such-film.gif");
   CHECK_FALSE(says(text_of(shown.driver), "Sound"));
@@ -138,7 +151,9 @@ TEST_CASE("Film dialog: lists and boxes set quality, format and content") {
   CHECK_FALSE(says(text_of(shown.driver), "figures"));
   tick(shown.driver, "film.command");
   CHECK(shown.action == FilmDialog::Action::CopyCommand);
-  shown.open({50.0, 3.0, true}, "other.mp4");
+  shown.open({50.0, 3.0, true, 1, true}, "other.mp4");
+  CHECK(film.plots);
+  CHECK(film.own_plots);
   tick(shown.driver, "film.cancel");
   CHECK(shown.action == FilmDialog::Action::Cancel);
 }

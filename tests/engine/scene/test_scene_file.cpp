@@ -242,6 +242,7 @@ Scene unusual_scene() {
       .background = Rgb{0, 10, 255},
       .grid = true,
       .overlay = false,
+      .plots = {FilmPlot::HeatFluxProfile, FilmPlot::Energy, FilmPlot::Velocities},
       .trails = 0.75,
       .card = 1e-3,
       .captions = {{.text = "T_x \\_", .from = {}, .to = 0.1}, {.text = "", .from = 0.3, .to = {}}},
@@ -547,7 +548,7 @@ TEST_CASE("Scene file: a scene as JSON has the keys of the file") {
       R"("view": {"colour_by": "speed", "window": 20.0, "estimator": "exact", "speed": 1.0, )"
       R"("palette": "viridis", )"
       R"("range": "auto", "field_palette": "blue", "field_style": "smooth", )"
-      R"("field_range": "auto", "theme": "dark", "grid": false, "overlay": true, )"
+      R"("field_range": "auto", "theme": "dark", "grid": false, "overlay": true, "plots": [], )"
       R"("lecture": {"sliders": [], "plot": "temperature"}}})");
 }
 

@@ -11,6 +11,7 @@ namespace clatter {
 struct Sample {
   double time = 0.0;             ///< middle of the averaging interval
   VecX temperature;              ///< [D] T_x, T_y and, for spheres, T_z
+  double spin_temperature = 0.0;  ///< 0 without spins
   double walls_in = 0.0;         ///< power of the walls
   double bulk_in = 0.0;          ///< power of the bulk drive
   double nudges_in = 0.0;        ///< power of nudges
@@ -19,6 +20,15 @@ struct Sample {
   double ledger_residual = 0.0;  ///< magnitude of Totals::ledger_residual()
   double deepest_overlap = 0.0;  ///< see RunChecks
 };
+
+/// Visits all members, in order, for checkpoints.
+template <class Archive>
+void visit(Archive& io, Sample& sample) {
+  auto& [time, temperature, spin_temperature, walls_in, bulk_in, nudges_in, gravity_in, dissipated,
+         ledger_residual, deepest_overlap] = sample;
+  io(time, temperature, spin_temperature, walls_in, bulk_in, nudges_in, gravity_in, dissipated,
+     ledger_residual, deepest_overlap);
+}
 
 /// Histogram of the velocities over the last seconds, with bins of equal width.
 class VelocityHistogram {
@@ -34,6 +44,12 @@ class VelocityHistogram {
   /// of each bin. Empty bins have density 0.
   std::vector<Vec2> density(int axis) const;
 
+  /// Visits all members, for checkpoints.
+  template <class Archive>
+  void visit(Archive& io) {
+    io(weights_);
+  }
+
  private:
   std::array<std::array<double, kClasses>, 3> weights_ = {};
 };
@@ -42,6 +58,8 @@ class VelocityHistogram {
 /// of the run. A look into the past adds no samples.
 class History {
  public:
+  static constexpr double kPerSecond = 10.0;  ///< largest number of samples per second of play
+
   /// Adds a frame at the head of the run. A frame of another run clears the history, and one of
   /// another future removes the samples since its beginning.
   void add(const Frame& frame);
@@ -50,6 +68,13 @@ class History {
   const std::vector<Sample>& samples() const { return samples_; }
   /// Histogram of all particles over the last seconds.
   const VelocityHistogram& velocities() const { return velocities_; }
+
+  /// Visits all members, for checkpoints.
+  template <class Archive>
+  void visit(Archive& io) {
+    auto& [run, futures, last, spacing, samples, velocities] = *this;
+    io(run, futures, last, spacing, samples, velocities);
+  }
 
  private:
   void thin_out();

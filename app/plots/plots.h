@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "app/view/history.h"
-#include "app/view/plot.h"
+#include "app/plots/history.h"
 #include "engine/publish/command.h"
+#include "render/layers/live_plot.h"
 #include "render/theme.h"
 
 namespace clatter {
@@ -47,5 +47,9 @@ std::vector<LivePlot> plots_of(const History& history, const Frame& frame, std::
 /// frame lacks its data.
 std::optional<LivePlot> lecture_plot(LecturePlot which, const std::vector<PlottedGas>& gases,
                                      std::size_t profiled, const ThemeColours& theme);
+
+/// A plot of films, as lecture_plot().
+std::optional<LivePlot> film_plot(FilmPlot which, const std::vector<PlottedGas>& gases,
+                                  const ThemeColours& theme);
 
 }  // namespace clatter

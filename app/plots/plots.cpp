@@ -1,4 +1,4 @@
-#include "app/view/plots.h"
+#include "app/plots/plots.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "app/results/theory_json.h"
-#include "app/view/plot_colours.h"
+#include "app/plots/plot_colours.h"
 #include "engine/scene/text.h"
 #include "render/label.h"
 
@@ -65,9 +65,13 @@ LivePlot temperature_plot(const std::vector<Sample>& samples, const Scene& scene
   plot.curves.push_back(
       over_time("T", plain, samples, [](const Sample& s) { return s.temperature.mean(); }));
   plot.curves.back().compared = true;
-  // A law that changed has no Haff curve from the start.
-  if (const auto rate = haff_rate(scene); rate && *rate > 0.0 && scene.changes.empty()) {
-    plot.log_x = plot.log_y = true;
+  if (scene.spins()) {
+    plot.curves.push_back(
+        over_time("T_rot", kPurple, samples, [](const Sample& s) { return s.spin_temperature; }));
+  }
+  // After a change of laws the decay is no power of the time since the start.
+  plot.log_x = plot.log_y = cools_freely(scene) && scene.changes.empty();
+  if (const auto rate = haff_rate(scene); rate && plot.log_x) {
     plot.curves.push_back(haff_curve(samples, scene.particles.start.temperature, *rate));
   }
   if (const auto gas = vibrated_gas(scene); gas && gas->drive_speed > 0.0) {
@@ -339,6 +343,27 @@ static std::optional<LivePlot> lecture_plot_of(LecturePlot which, const PlottedG
       return profile_plot(*frame.profile, profiled, *frame.scene);
   }
   return std::nullopt;
+}
+
+static LecturePlot kind_of(FilmPlot which) {
+  switch (which) {
+    case FilmPlot::Temperature:
+      return LecturePlot::Temperature;
+    case FilmPlot::Energy:
+      return LecturePlot::Energy;
+    case FilmPlot::Velocities:
+      return LecturePlot::Velocities;
+    default:
+      return LecturePlot::Profile;
+  }
+}
+
+std::optional<LivePlot> film_plot(FilmPlot which, const std::vector<PlottedGas>& gases,
+                                  const ThemeColours& theme) {
+  const LecturePlot kind = kind_of(which);
+  const auto first = static_cast<int>(FilmPlot::DensityProfile);
+  const int profiled = kind == LecturePlot::Profile ? static_cast<int>(which) - first : 0;
+  return lecture_plot(kind, gases, static_cast<std::size_t>(profiled), theme);
 }
 
 std::optional<LivePlot> lecture_plot(LecturePlot which, const std::vector<PlottedGas>& gases,

@@ -1,4 +1,4 @@
-#include "app/view/history.h"
+#include "app/plots/history.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,8 +39,7 @@ void History::add(const Frame& frame) {
   if (frame.run != run_) {
     run_ = frame.run;
     futures_ = frame.futures;
-    last_ = {};
-    last_.temperature_integral.setZero(frame.tally.temperature_integral.size());
+    last_ = empty_tally(static_cast<int>(frame.tally.temperature_integral.size()));
     spacing_ = 0.0;
     samples_.clear();
     velocities_.clear();
@@ -49,10 +48,13 @@ void History::add(const Frame& frame) {
   const double span = frame.tally.time - last_.time;
   if (frame.snapshot.time < frame.head || !(span > 0.0)) return;
   velocities_.add(frame.snapshot);
-  if (span < spacing_) return;
+  constexpr double kRounding = 1e-9;  // frames of films are apart by the spacing
+  if (span < (1.0 - kRounding) * spacing_) return;
   Sample sample;
   sample.time = frame.snapshot.time - 0.5 * span;
   sample.temperature = (frame.tally.temperature_integral - last_.temperature_integral) / span;
+  sample.spin_temperature =
+      (frame.tally.spin_temperature_integral - last_.spin_temperature_integral) / span;
   sample.walls_in = (frame.tally.walls_in - last_.walls_in) / span;
   sample.bulk_in = (frame.tally.bulk_in - last_.bulk_in) / span;
   sample.nudges_in = (frame.tally.nudges_in - last_.nudges_in) / span;
@@ -62,8 +64,8 @@ void History::add(const Frame& frame) {
   sample.deepest_overlap = frame.deepest_overlap;
   samples_.push_back(sample);
   last_ = frame.tally;
-  // At least a tenth of a second on screen: a shorter average would resolve single collisions.
-  spacing_ = std::max(spacing_, frame.speed / 10.0);
+  // A shorter average would resolve single collisions.
+  spacing_ = std::max(spacing_, frame.speed / kPerSecond);
   constexpr std::size_t kMax = 1200;
   if (samples_.size() > kMax) thin_out();
 }
@@ -80,6 +82,7 @@ void History::thin_out() {
   for (std::size_t i = 0; i + 1 < samples_.size(); i += 2) {
     const Sample &a = samples_[i], &b = samples_[i + 1];
     thinned.push_back({0.5 * (a.time + b.time), 0.5 * (a.temperature + b.temperature),
+                       0.5 * (a.spin_temperature + b.spin_temperature),
                        0.5 * (a.walls_in + b.walls_in), 0.5 * (a.bulk_in + b.bulk_in),
                        0.5 * (a.nudges_in + b.nudges_in), 0.5 * (a.gravity_in + b.gravity_in),
                        0.5 * (a.dissipated + b.dissipated),

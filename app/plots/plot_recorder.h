@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "app/plots/history.h"
+#include "app/plots/plots.h"
+#include "engine/measure/totals.h"
+#include "engine/publish/live_profile.h"
+#include "engine/publish/scheduled_run.h"
+
+namespace clatter {
+
+/// Samples a run for the plots of its film.
+template <int D>
+class PlotRecorder {
+ public:
+  /// Samples from the present time of the run on, for a film with `speed` time units per second.
+  /// `view` has its plots. The samples continue the result of save(), if it is not empty. Both must
+  /// outlive the recorder. Throws UserError if `saved` belongs to other plots.
+  PlotRecorder(ScheduledRun<D>& run, const View& view, double speed, const std::string& saved);
+
+  /// Runs to a time by `run`, which returns false at an early end, and takes samples on the way.
+  /// Returns false at an early end.
+  bool run_until(double time, const std::function<bool(double time)>& run);
+  /// Follows the next simulation of the run, under new laws.
+  void follow(Simulation<D>& next);
+  /// The gas at the present time, without a name. Valid until the next call.
+  PlottedGas gas();
+  /// The samples and all sums, for a checkpoint.
+  std::string save();
+
+ private:
+  double next_time() const { return static_cast<double>(next_) * spacing_; }
+  bool has_profile() const;
+  double profile_window() const { return view_.window / kWindowParts; }
+  Axis profile_axis() const { return run_.laws().measure.profile_axis; }
+  void watch(Simulation<D>& simulation);
+  void take_sample();
+  template <class Archive>
+  void visit(Archive& io) {
+    io(next_, tally_, history_, *totals_);
+  }
+
+  ScheduledRun<D>& run_;
+  const View& view_;
+  double spacing_;          // time between samples
+  std::uint64_t next_ = 1;  // number of the next sample; sample 0 is at time 0
+  Tally tally_ = empty_tally(D);
+  History history_;
+  std::optional<Totals<D>> totals_;
+  std::optional<LiveProfile<D>> profile_;  // absent: no plot needs it
+  Frame frame_;                            // of the last sample
+};
+
+extern template class PlotRecorder<2>;
+extern template class PlotRecorder<3>;
+
+}  // namespace clatter

@@ -1,0 +1,264 @@
+// The plots beside the gas in films.
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/plots/plot_recorder.h"
+#include "engine/publish/watched_run.h"
+#include "engine/scene/scene_file.h"
+#include "render/context/context.h"
+#include "render/layers/plot_strip.h"
+#include "render/output/cells.h"
+#include "tests/app/film_scene.h"
+#include "tests/render/picture.h"
+
+namespace clatter {
+
+namespace {
+
+constexpr double kSpeed = 2.0;
+
+// A rough gas between different walls, whose laws change at t = 3. Windows of the profile are 0.25
+// long.
+Scene changing_gas() {
+  return parse_scene(R"(
+box.size = [13.0, 11.0]
+particles = { count = 60, restitution = 0.85, friction = 0.4 }
+walls.left = { kind = "driven", drive_speed = 1.7 }
+walls.right = { kind = "static" }
+walls.bottom = { kind = "static" }
+walls.top = { kind = "thermal", temperature = 2.0 }
+gravity.acceleration = [0.0, -0.3]
+measure.profile_axis = "y"
+view = { window = 2.0, plots = ["temperature", "energy", "velocities", "temperature_profile"] }
+[[change]]
+time = 3.0
+set.particles.restitution = 0.7
+)",
+                     "changing.toml");
+}
+
+std::vector<LivePlot> plots_of_film(const Scene& scene, PlottedGas gas) {
+  std::vector<LivePlot> plots;
+  for (const FilmPlot which : scene.view.plots) {
+    const auto plot = film_plot(which, {gas}, kDarkTheme);
+    REQUIRE(plot);
+    plots.push_back(*plot);
+  }
+  return plots;
+}
+
+// `rounding`: relative to the largest value of a curve.
+void check_same(const std::vector<LivePlot>& plots, const std::vector<LivePlot>& others,
+                double rounding) {
+  REQUIRE(plots.size() == others.size());
+  for (std::size_t k = 0; k < plots.size(); ++k) {
+    CAPTURE(plots[k].title);
+    REQUIRE(plots[k].curves.size() == others[k].curves.size());
+    CHECK(plots[k].x_label == others[k].x_label);
+    for (std::size_t c = 0; c < plots[k].curves.size(); ++c) {
+      const Curve &curve = plots[k].curves[c], &other = others[k].curves[c];
+      CAPTURE(curve.name);
+      CHECK(curve.name == other.name);
+      CHECK_FALSE(curve.points.empty());
+      REQUIRE(curve.points.size() == other.points.size());
+      double most = 0.0, difference = 0.0;
+      for (std::size_t i = 0; i < curve.points.size(); ++i) {
+        const Vec2 here = curve.points[i], there = other.points[i];
+        CHECK(std::fabs(here.x() - there.x()) <= rounding * std::fabs(there.x()));
+        most = std::max(most, std::fabs(there.y()));
+        difference = std::max(difference, std::fabs(here.y() - there.y()));
+      }
+      CHECK(difference <= rounding * most);
+      CHECK(curve.errors == other.errors);
+    }
+  }
+}
+
+// A run with the plots of its scene.
+struct RecordedRun {
+  explicit RecordedRun(const Scene& scene) : scene(scene), run(scene, 1) { record(""); }
+  RecordedRun(const Scene& scene, const RunState<2>& state, const std::string& plots)
+      : scene(scene), run(scene, 1, state) {
+    record(plots);
+  }
+
+  void until(double time) {
+    CHECK(recorder->run_until(time, [this](double end) { return run.run_until(end); }));
+  }
+  std::vector<LivePlot> plots() { return plots_of_film(scene, recorder->gas()); }
+
+  Scene scene;
+  ScheduledRun<2> run;
+  std::unique_ptr<PlotRecorder<2>> recorder;
+
+ private:
+  void record(const std::string& saved) {
+    recorder = std::make_unique<PlotRecorder<2>>(run, scene.view, kSpeed, saved);
+    run.on_change = [this](Simulation<2>& next) { recorder->follow(next); };
+  }
+};
+
+}  // namespace
+
+TEST_CASE("Film plots: their values are those of the window at the same times") {
+  const Scene scene = changing_gas();
+  RecordedRun film(scene);
+  film.until(6.1);
+
+  const auto window = watched_run(scene, 1);
+  window->show_profile(Profiled::Fields, Axis::Y);
+  History history;
+  Frame frame;
+  frame.run = 1;
+  frame.speed = kSpeed;
+  for (int sample = 1; sample <= 30; ++sample) {
+    window->run_until(sample * kSpeed / History::kPerSecond, kNoLimit, kNoLimit);
+    window->tell(frame, false);
+    history.add(frame);
+  }
+  window->run_until(6.1, kNoLimit, kNoLimit);
+  window->tell(frame, false);
+  // The window closes its sums at further times.
+  check_same(film.plots(), plots_of_film(scene, {&history, &frame, ""}), 1e-12);
+  CHECK(history.samples().size() == 30);
+}
+
+TEST_CASE("Film plots: they do not change the run, and continue from a checkpoint to the bit") {
+  const Scene scene = changing_gas();
+  RecordedRun whole(scene), begun(scene);
+  whole.until(8.0);
+  ScheduledRun<2> plain(scene, 1);
+  plain.run_until(8.0);
+  CHECK(whole.run.simulation().state_hash() == plain.simulation().state_hash());
+
+  // Between two samples, and after the change.
+  for (const double time : {1.13, 4.27}) {
+    CAPTURE(time);
+    begun.until(time);
+    RecordedRun resumed(scene, begun.run.simulation().save(), begun.recorder->save());
+    resumed.until(8.0);
+    check_same(resumed.plots(), whole.plots(), 0.0);
+  }
+}
+
+TEST_CASE("Film plots: plots of another view are refused") {
+  Scene scene = changing_gas();
+  RecordedRun begun(scene);
+  begun.until(2.0);
+  scene.view.plots = {FilmPlot::Temperature};
+  CHECK_THROWS_AS(RecordedRun(scene, begun.run.simulation().save(), begun.recorder->save()),
+                  UserError);
+}
+
+TEST_CASE("Film plots: a name selects its quantity") {
+  Scene scene = changing_gas();
+  scene.view.plots = {FilmPlot::DensityProfile, FilmPlot::TemperatureProfile,
+                      FilmPlot::StressProfile, FilmPlot::HeatFluxProfile};
+  RecordedRun film(scene);
+  film.until(5.0);
+  std::vector<std::string> names;
+  for (const LivePlot& plot : film.plots()) {
+    CHECK(plot.x_label == "y in a");
+    names.push_back(plot.curves.front().name);
+  }
+  CHECK(names ==
+        std::vector<std::string>{"density ρ", "temperature T", "stress σ", "heat flux q"});
+  const auto dissipation = film_plot(FilmPlot::DissipationProfile, {film.recorder->gas()},
+                                     kDarkTheme);
+  REQUIRE(dissipation);
+  for (const Vec2& point : dissipation->curves.front().points) CHECK(point.y() <= 0.0);
+  // The title, the unit and the number of curves of the others.
+  const auto is = [&](FilmPlot which, const char* title, const char* unit, std::size_t curves) {
+    const auto plot = film_plot(which, {film.recorder->gas()}, kDarkTheme);
+    REQUIRE(plot);
+    CHECK(plot->title == title);
+    CHECK(plot->y_label == unit);
+    CHECK(plot->curves.size() == curves);
+  };
+  is(FilmPlot::Temperature, "Temperature", "m a²/t²", 4);  // T_x, T_y, T and T_rot
+  is(FilmPlot::Energy, "Energy per time", "m a²/t³", 3);
+  is(FilmPlot::Velocities, "Velocities", "density", 3);
+}
+
+TEST_CASE("Film plots: the strip is beside a wide picture and below a high one") {
+  const auto check = [](Size whole) {
+    CAPTURE(whole.width);
+    CAPTURE(whole.height);
+    const auto [gases, plots] = split_for_plots(whole);
+    CHECK(gases.left == 0);
+    CHECK(gases.top == 0);
+    const bool beside = whole.width >= whole.height;
+    CHECK(plots.left == (beside ? gases.size.width : 0));
+    CHECK(plots.top == (beside ? 0 : gases.size.height));
+    CHECK(plots.left + plots.size.width == whole.width);
+    CHECK(plots.top + plots.size.height == whole.height);
+    const double share = beside ? 1.0 * plots.size.width / whole.width
+                                : 1.0 * plots.size.height / whole.height;
+    CHECK(share == doctest::Approx(0.3).epsilon(0.05));
+  };
+  check({1280, 720});
+  check({321, 321});
+  check({240, 401});
+}
+
+TEST_CASE("Film plots: curves are drawn where their axes say") {
+  constexpr Colour kMarked = {0xff, 0x00, 0x00};
+  // A line at 2 on an axis from 0 to 4.2, which has 5 % above the largest value.
+  LivePlot plot{"Title", "x", false, false, {}, "unit"};
+  plot.curves = {{"", kMarked, {{0.0, 2.0}, {1.0, 2.0}}}, {"", {0, 0, 0xff}, {{0.0, 0.0}, {1.0, 4.0}}}};
+  const auto context = open_context(Backend::Osmesa);
+  for (const bool transparent : {false, true}) {
+    CAPTURE(transparent);
+    PlotStrip strip(context->gl(), {300, 400}, {1000, 720}, transparent);
+    const Image image = strip.draw({plot, std::nullopt}, kDarkTheme);
+    REQUIRE(image.size == Size{300, 400});
+    int low = 400, high = 0, left = 300, right = 0, marked = 0;
+    for (int y = 0; y < 400; ++y) {
+      for (int x = 0; x < 300; ++x) {
+        const Colour colour = pixel(image, x, y);
+        if (colour.red < 0xc0 || colour.green > 0x60) continue;
+        ++marked;
+        low = std::min(low, y), high = std::max(high, y);
+        left = std::min(left, x), right = std::max(right, x);
+      }
+    }
+    REQUIRE(marked > 0);
+    // One line over the width of the axes, in the upper half: the second place is empty.
+    CHECK(high - low <= 3);
+    CHECK(left > 40);
+    CHECK(right > 260);
+    CHECK(high < 200);
+    CHECK(pixel(image, 150, 300).alpha == (transparent ? 0 : 0xff));
+  }
+}
+
+TEST_CASE("Film plots: a film has them, and a scene has at most four") {
+  const Shell shell;
+  write_film_scene(shell, ", plots = [\"temperature\", \"energy\"]");
+  const std::string line = "clatter render scene.toml --quiet --to 2 ";
+  const Outcome drawn = shell.run(line + "--size 200x100 --out with.png");
+  CAPTURE(drawn.err);
+  REQUIRE(drawn.code == 0);
+  REQUIRE(shell.run(line + "--set 'view.plots=[]' --size 140x100 --out without.png").code == 0);
+  // The letters have another size in the smaller picture, so that only the middle is the same.
+  CHECK(png_text(shell.path("with.png"), "State hash") ==
+        png_text(shell.path("without.png"), "State hash"));
+  const auto colours = [&](const std::string& file, const std::string& part) {
+    return shell.run("ffmpeg -v error -i " + file + " -vf format=rgba,crop=" + part +
+                     " -f md5 -").out;
+  };
+  CHECK(colours("with.png", "60:100:140:0") != colours("with.png", "60:100:80:0"));
+  check_refused(shell,
+                line + "--out no.png --set 'view.plots=[\"temperature\", \"energy\", "
+                       "\"velocities\", \"density_profile\", \"stress_profile\"]'",
+                {"view.plots", "at most 4 plots"});
+  check_refused(shell, line + "--out no.png --set 'view.plots=[\"density\"]'",
+                {"view.plots", "density_profile"});
+}
+
+}  // namespace clatter
