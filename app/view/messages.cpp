@@ -173,8 +173,16 @@ constexpr std::array<KeyLine, 31> kKeys = {{
 }  // namespace
 
 void help_window(int dimension, float width, float height) {
-  const float unit = ImGui::GetFontSize();
   begin_note("help", ImVec2(0.5f * width, 0.5f * height), ImVec2(0.5f, 0.5f));
+  // The large letters of lecture mode shrink where the list would be higher than the window.
+  ImGui::SetWindowFontScale(1.0f);
+  const float lines = static_cast<float>(kKeys.size()) + 3.0f;
+  const float needed = lines * ImGui::GetTextLineHeightWithSpacing();
+  const float scale = std::min(1.0f, height / needed);
+  const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;
+  ImGui::SetWindowFontScale(scale);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(scale * spacing.x, scale * spacing.y));
+  const float unit = ImGui::GetFontSize();
   ImGui::TextUnformatted("Keys and mouse");
   ImGui::Spacing();
   for (const auto& [key, effect, spheres_only] : kKeys) {
@@ -183,6 +191,7 @@ void help_window(int dimension, float width, float height) {
     ImGui::SameLine(13.0f * unit);
     ImGui::TextDisabled("%s", effect);
   }
+  ImGui::PopStyleVar();
   end_note();
 }
 
