@@ -49,8 +49,12 @@ async function open(fragment, query = '') {
 const events = (name) => browser.value(
     `log.map((line) => JSON.parse(line)).filter((event) => event.event === '${name}')`);
 const last = async (name) => (await events(name)).pop();
-const place_of = async (widget) =>
-    (await events('widget')).filter((event) => event.name === widget).pop().place;
+
+// The first pictures have no walls yet.
+async function place_of(widget) {
+  await browser.until(`log.some((line) => line.includes('"name":"${widget}"'))`);
+  return (await events('widget')).filter((event) => event.name === widget).pop().place;
+}
 
 // Middle of a widget, in pixels of the page.
 async function middle_of(widget) {
