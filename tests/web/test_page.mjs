@@ -3,9 +3,10 @@
 
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
-import {existsSync, mkdtempSync, rmSync, writeFileSync} from 'node:fs';
+import {existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
+import {gzipSync} from 'node:zlib';
 import {Browser, serve, sleep} from './browser.mjs';
 
 const [folder, chosen = ''] = process.argv.slice(2);
@@ -105,6 +106,13 @@ async function click_at(x, y) {
   await sleep(500);
   await browser.mouse('mouseReleased', x, y);
 }
+
+test('the files of the page are small', async () => {
+  const sizes = readdirSync(folder).map((file) => gzipSync(readFileSync(join(folder, file)), {level: 9}).length);
+  const all = sizes.reduce((sum, size) => sum + size, 0);
+  console.log(`  ${all} bytes with gzip`);
+  assert.ok(all <= 1.2e6, `${all} bytes`);
+});
 
 test('the gas steps forth and back, by frames and by collisions', async () => {
   await open('vibrated', '&until=1');
