@@ -81,6 +81,10 @@ void Gui::draw() {
   }
   if (title_ != session_.opened().title) {
     title_ = session_.opened().title;
+    // A scene with plots shows its law in them.
+    if (!panels_.lecture && !controls_.chooses() && !session_.opened().view.plots.empty()) {
+      panels_.plots = true;
+    }
     host_.set_title(title_ + " – clatter");
   }
   watch_film();

@@ -129,8 +129,7 @@ inline constexpr auto kViewKeys = key_table(
      {"overlay", "", "Title, captions, time, colour bar and scale bar."},
      {"plots", "",
       "Plots beside the gas in films and pictures, at most 4. Profiles are along "
-      "`measure.profile_axis`.",
-      "render"},
+      "`measure.profile_axis`. The window opens its own plots with such a scene."},
      {"trails", "t", "Duration of the particles' trails. Without a value: none."},
      {"card", "s",
       "Time of title and caption at the start of a film, while the gas moves. They fade out in the "
