@@ -68,6 +68,16 @@ inline constexpr std::array<Named<LecturePlot>, 5> kLecturePlots = {
      {"velocities", LecturePlot::Velocities},
      {"profile", LecturePlot::Profile}}};
 
+inline constexpr std::array<Named<OverlayPart>, 8> kOverlayParts = {
+    {{"title", OverlayPart::Title},
+     {"caption", OverlayPart::Caption},
+     {"time", OverlayPart::Time},
+     {"temperature", OverlayPart::Temperature},
+     {"collisions", OverlayPart::Collisions},
+     {"colour_bars", OverlayPart::ColourBars},
+     {"scale_bar", OverlayPart::ScaleBar},
+     {"captions", OverlayPart::Captions}}};
+
 inline constexpr std::array<Named<FilmPlot>, 8> kFilmPlots = {
     {{"temperature", FilmPlot::Temperature},
      {"energy", FilmPlot::Energy},

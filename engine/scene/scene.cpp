@@ -24,6 +24,10 @@ VecX Scene::clear_box() const {
   return size;
 }
 
+bool View::hides(OverlayPart part) const {
+  return std::ranges::find(overlay_hides, part) != overlay_hides.end();
+}
+
 bool View::hide_spins() {
   const bool colours = colour_by == ColourBy::Spin;
   const bool maps = field && of_spins(*field);

@@ -110,6 +110,18 @@ enum class FilmPlot {
   DissipationProfile
 };
 
+/// A part of the overlay: texts and scales on a picture.
+enum class OverlayPart {
+  Title,
+  Caption,  ///< of the scene
+  Time,
+  Temperature,
+  Collisions,
+  ColourBars,
+  ScaleBar,
+  Captions  ///< timed texts, View::captions
+};
+
 /// Settings of pictures.
 struct View {
   static constexpr std::size_t kMostPlots = 4;
@@ -130,6 +142,7 @@ struct View {
   std::optional<Rgb> background;   ///< absent: as the theme
   bool grid = false;               ///< lines over the box, spaced by the length of the scale bar
   bool overlay = true;             ///< time, title, captions, colour bar, scale bar
+  std::vector<OverlayPart> overlay_hides = {};  ///< parts that the overlay does not have
   std::vector<FilmPlot> plots = {};  ///< beside the gas in films, at most kMostPlots
   std::optional<double> trails;    ///< duration of the particles' trails, > 0; absent: none
   std::optional<double> card;  ///< seconds of the title card at a film's start, > 0; absent: none
@@ -149,6 +162,8 @@ struct View {
   /// Replaces colours and fields of spins: the colour by the speed, the heatmap by none. Returns
   /// whether there were any.
   bool hide_spins();
+  /// Whether the overlay, if any, lacks a part.
+  bool hides(OverlayPart part) const;
   /// Whether it shows time averages: a heatmap or arrows.
   bool shows_averages() const { return field || arrows; }
   /// Whether another view needs the same averages.

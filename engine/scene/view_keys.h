@@ -127,6 +127,8 @@ inline constexpr auto kViewKeys = key_table(
      {"background", "", "Colour of the background. Without a value the theme sets it."},
      {"grid", "", "Grid lines over the box. Their spacing is the length of the scale bar."},
      {"overlay", "", "Title, captions, time, colour bar and scale bar."},
+     {"overlay_hides", "",
+      "Parts that the overlay does not have. caption is that of the scene, captions are timed."},
      {"plots", "",
       "Plots beside the gas in films and pictures, at most 4. Profiles are along "
       "`measure.profile_axis`. The window opens its own plots with such a scene."},
@@ -169,6 +171,7 @@ void visit_view(Visitor& io, View& view, int dimension) {
   io.value(kViewKeys.at("background"), view.background, Limits{});
   io.value(kViewKeys.at("grid"), view.grid);
   io.value(kViewKeys.at("overlay"), view.overlay);
+  io.choice(kViewKeys.at("overlay_hides"), view.overlay_hides, kOverlayParts);
   io.choice(kViewKeys.at("plots"), view.plots, kFilmPlots);
   io.value(kViewKeys.at("trails"), view.trails, times);
   io.value(kViewKeys.at("card"), view.card, times);

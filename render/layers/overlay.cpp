@@ -43,8 +43,25 @@ float unit_for(Size size, const OverlayText& text) {
   return static_cast<float>(std::round(std::max(text.letters * usual, text.least)));
 }
 
+// The text without the parts that the view hides. Title cards have the whole text.
+OverlayText shown_text(OverlayText text, const View& view) {
+  if (view.hides(OverlayPart::Title)) text.title.clear(), text.beside.clear();
+  if (view.hides(OverlayPart::Caption)) text.caption.clear();
+  return text;
+}
+
+Legends shown_legends(const Legends& legends, const View& view) {
+  return view.hides(OverlayPart::ColourBars) ? Legends{} : legends;
+}
+
+// Whether there are figures or a scale bar below the box.
+bool has_row(const View& view) {
+  return !view.hides(OverlayPart::Time) || !view.hides(OverlayPart::Temperature) ||
+         !view.hides(OverlayPart::Collisions) || !view.hides(OverlayPart::ScaleBar);
+}
+
 Page arrange(Arrangement arrangement, const Fonts& fonts, const ThemeColours& theme, Size size,
-             const Legends& legends, const OverlayText& text) {
+             const View& view, const Legends& legends, const OverlayText& text) {
   const float unit = fonts.unit(), edge = std::round(kEdge * unit);
   const bool column = arrangement == Arrangement::Column;
   Page page{
@@ -71,22 +88,22 @@ Page arrange(Arrangement arrangement, const Fonts& fonts, const ThemeColours& th
     page.margins.left += page.wrap + unit;
   } else {
     page.margins.top += end > edge ? end - edge + unit : 0.0f;
-    page.margins.bottom += 2.0f * unit;
+    page.margins.bottom += has_row(view) ? 2.0f * unit : 0.0f;
   }
   return page;
 }
 
 // The arrangement that shows the box larger.
 Page arrange(const Snapshot& snapshot, const Fonts& fonts, const ThemeColours& theme, Size size,
-             const Legends& legends, const OverlayText& text) {
+             const View& view, const Legends& legends, const OverlayText& text) {
   // A box of spheres may be turned: a square stands for it.
   const Faces faces =
       snapshot.box.size() == 2 ? outermost_faces(snapshot) : Faces{Vec2(0.0, 0.0), Vec2(1.0, 1.0)};
   auto shown_width = [&](const Page& page) {
     return Camera::fit(faces.low, faces.high, size, page.margins).width;
   };
-  const Page rows = arrange(Arrangement::Rows, fonts, theme, size, legends, text);
-  const Page column = arrange(Arrangement::Column, fonts, theme, size, legends, text);
+  const Page rows = arrange(Arrangement::Rows, fonts, theme, size, view, legends, text);
+  const Page column = arrange(Arrangement::Column, fonts, theme, size, view, legends, text);
   return shown_width(column) < shown_width(rows) ? column : rows;
 }
 
@@ -163,23 +180,33 @@ struct Figure {
   Ink ink;
 };
 
-std::array<Figure, 3> figures_of(const Snapshot& snapshot, const ThemeColours& theme) {
-  return {{{formatted("t = %.2f", snapshot.time), "t = 0000.00", theme.ink()},
-           {formatted("T = %#.3g", snapshot.temperature), "T = 0.0000", theme.faint_ink()},
-           {grouped(snapshot.collisions) + " collisions", "", theme.faint_ink()}}};
+std::vector<Figure> figures_of(const Snapshot& snapshot, const View& view,
+                               const ThemeColours& theme) {
+  std::vector<Figure> figures;
+  const auto add = [&](OverlayPart part, const Figure& figure) {
+    if (!view.hides(part)) figures.push_back(figure);
+  };
+  add(OverlayPart::Time, {formatted("t = %.2f", snapshot.time), "t = 0000.00", theme.ink()});
+  add(OverlayPart::Temperature,
+      {formatted("T = %#.3g", snapshot.temperature), "T = 0.0000", theme.faint_ink()});
+  add(OverlayPart::Collisions,
+      {grouped(snapshot.collisions) + " collisions", "", theme.faint_ink()});
+  return figures;
 }
 
 // Figures in a row from the lower left corner, as far as they fit, and the scale bar at its end.
 void draw_row(ImDrawList& list, const Snapshot& snapshot, const Projection& projection,
-              const Page& page) {
+              const View& view, const Page& page) {
   const float unit = page.fonts.unit(), bottom = page.size.height - page.edge;
   const double length = scale_length(snapshot, projection);
   const auto pixels = static_cast<float>(length * snapshot.diameter * projection.scale());
   const float right = std::round(page.size.width - page.edge - std::max(pixels, 2.0f * unit));
-  draw_scale_bar(list, ImVec2(right, bottom), length, pixels, page);
+  if (!view.hides(OverlayPart::ScaleBar)) {
+    draw_scale_bar(list, ImVec2(right, bottom), length, pixels, page);
+  }
 
   float x = page.edge;
-  for (const Figure& figure : figures_of(snapshot, page.theme)) {
+  for (const Figure& figure : figures_of(snapshot, view, page.theme)) {
     const float width = text_extent(*page.fonts.text, figure.text).x;
     if (x + width > right - unit) return;
     draw_plate(list, ImVec2(x, bottom - unit), ImVec2(x + width, bottom), page);
@@ -192,14 +219,14 @@ void draw_row(ImDrawList& list, const Snapshot& snapshot, const Projection& proj
 // Figures in a column in the lower left corner, and the scale bar above them, as far as they fit
 // below the heading.
 void draw_column(ImDrawList& list, const Snapshot& snapshot, const Projection& projection,
-                 const Page& page) {
+                 const View& view, const Page& page) {
   const float unit = page.fonts.unit(), line = std::round(1.5f * unit);
   const float room = static_cast<float>(page.size.height) - page.edge - page.heading;
-  const auto all = figures_of(snapshot, page.theme);
+  const auto all = figures_of(snapshot, view, page.theme);
   const auto fitting = static_cast<std::size_t>(std::max(0.0f, (room + 0.5f * unit) / line));
   const std::span<const Figure> figures(all.data(), std::min(fitting, all.size()));
   float y = page.size.height - page.edge - std::round(1.5f * unit * figures.size() - 0.5f * unit);
-  if (y - 3.0f * unit > page.heading) {
+  if (!view.hides(OverlayPart::ScaleBar) && y - 3.0f * unit > page.heading) {
     const double length = scale_length(snapshot, projection);
     draw_scale_bar(list, ImVec2(page.edge, y - 1.5f * unit), length,
                    static_cast<float>(length * snapshot.diameter * projection.scale()), page);
@@ -400,18 +427,22 @@ Fonts Overlay::fonts_for(Size size, const OverlayText& text) {
   return fonts;
 }
 
-Margins Overlay::margins(const Snapshot& snapshot, Size size, const Legends& legends,
-                         const OverlayText& text) {
+Margins Overlay::margins(const Snapshot& snapshot, Size size, const View& view,
+                         const Legends& legends, const OverlayText& text) {
   const CurrentContext current(context_.get());
-  return arrange(snapshot, fonts_for(size, text), kDarkTheme, size, legends, text).margins;
+  return arrange(snapshot, fonts_for(size, text), kDarkTheme, size, view,
+                 shown_legends(legends, view), shown_text(text, view))
+      .margins;
 }
 
 void Overlay::draw(const Snapshot& snapshot, const Projection& projection, const View& view,
-                   const Legends& legends, const OverlayText& text) {
+                   const Legends& all_legends, const OverlayText& text) {
   const CurrentContext current(context_.get());
   const ThemeColours theme = theme_of(view);
   const Size size = projection.size;
-  Page page = arrange(snapshot, fonts_for(size, text), theme, size, legends, text);
+  const Legends legends = shown_legends(all_legends, view);
+  const OverlayText shown = shown_text(text, view);
+  Page page = arrange(snapshot, fonts_for(size, text), theme, size, view, legends, shown);
   const Faces box = box_area(snapshot, projection);
   const auto& [low, high] = box;
   const float wall = static_cast<float>(wall_thickness(size));
@@ -422,17 +453,19 @@ void Overlay::draw(const Snapshot& snapshot, const Projection& projection, const
   ImGui::GetIO().DisplaySize = ImVec2(size.width, size.height);
   ImGui::NewFrame();
   ImDrawList& list = *ImGui::GetForegroundDrawList();
-  draw_heading(list, text, page);
+  draw_heading(list, shown, page);
   draw_legends(list, legends, legend_area(box, snapshot, page), projection, page);
   switch (page.arrangement) {
     case Arrangement::Rows:
-      draw_row(list, snapshot, projection, page);
+      draw_row(list, snapshot, projection, view, page);
       break;
     case Arrangement::Column:
-      draw_column(list, snapshot, projection, page);
+      draw_column(list, snapshot, projection, view, page);
       break;
   }
-  draw_captions(list, view.captions, snapshot.time, text.speed, page);
+  if (!view.hides(OverlayPart::Captions)) {
+    draw_captions(list, view.captions, snapshot.time, text.speed, page);
+  }
   if (text.card > 0.0) draw_card(list, text, page);
   ImGui::Render();
   gui_.draw(*ImGui::GetDrawData());

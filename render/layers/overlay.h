@@ -33,13 +33,13 @@ double card_opacity(double length, double time);
 double caption_opacity(const Caption& caption, double time, double speed);
 
 /// Draws text and scales in the margins of the picture: title, time, temperature, collisions,
-/// captions, colour bars and a scale bar.
+/// captions, colour bars and a scale bar, without the parts that the view hides.
 class Overlay {
  public:
   explicit Overlay(const Gl& gl);
 
   /// The margins that the overlay needs in a picture of `size` with the whole box.
-  Margins margins(const Snapshot& snapshot, Size size, const Legends& legends,
+  Margins margins(const Snapshot& snapshot, Size size, const View& view, const Legends& legends,
                   const OverlayText& text);
 
   /// Draws the overlay over a picture of `snapshot`.

@@ -58,7 +58,7 @@ Camera Renderer::fit(const Snapshot& snapshot, Size size, const View& view, cons
                      const Legends& legends) {
   const double wall = wall_thickness(size);
   Margins margins{wall, wall, wall, wall};
-  if (view.overlay) margins = overlay_.margins(snapshot, size, legends, text);
+  if (view.overlay) margins = overlay_.margins(snapshot, size, view, legends, text);
   if (snapshot.box.size() == 3) return whole_box(snapshot, view, size, margins);
   // Disks extend over a periodic border by half their diameter.
   Vec2 overhang(0.0, 0.0);

@@ -53,7 +53,8 @@ TEST_CASE("Window: dragging the restitution cools the gas, undo takes it back") 
       "status", told, [&](const json& status) { return status["temperature"] < 0.4 * hot; });
   CHECK(cold["restitution"].get<double>() == doctest::Approx(0.5).epsilon(0.05));
   // A busy engine skips laws that later ones replace, so its changes can be fewer.
-  CHECK(driver.events("set").size() > 2);
+  // A slow picture joins movements of the mouse.
+  CHECK(driver.events("set").size() > 1);
   CHECK(cold["changes"] >= 1);
   driver.key("ctrl+z");
   driver.wait_for("undo", told);

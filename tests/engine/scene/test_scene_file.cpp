@@ -242,6 +242,7 @@ Scene unusual_scene() {
       .background = Rgb{0, 10, 255},
       .grid = true,
       .overlay = false,
+      .overlay_hides = {OverlayPart::ScaleBar, OverlayPart::Time, OverlayPart::Captions},
       .plots = {FilmPlot::HeatFluxProfile, FilmPlot::Energy, FilmPlot::Velocities},
       .trails = 0.75,
       .card = 1e-3,
@@ -548,7 +549,8 @@ TEST_CASE("Scene file: a scene as JSON has the keys of the file") {
       R"("view": {"colour_by": "speed", "window": 20.0, "estimator": "exact", "speed": 1.0, )"
       R"("palette": "viridis", )"
       R"("range": "auto", "field_palette": "blue", "field_style": "smooth", )"
-      R"("field_range": "auto", "theme": "dark", "grid": false, "overlay": true, "plots": [], )"
+      R"("field_range": "auto", "theme": "dark", "grid": false, "overlay": true, )"
+      R"("overlay_hides": [], "plots": [], )"
       R"("lecture": {"sliders": [], "plot": "temperature"}}})");
 }
 

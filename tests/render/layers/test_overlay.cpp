@@ -1,7 +1,10 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "render/layers/overlay.h"
 #include "tests/render/picture.h"
@@ -365,6 +368,94 @@ TEST_CASE("Overlay: the captions of a time are over the lower part of the gas, o
     CHECK(both.back() == second.back());
     CHECK(second.back() < 0.97);
   }
+}
+
+TEST_CASE("Overlay: a view may hide each part, and the others stay at their places") {
+  constexpr Size kSize{1280, 720};
+  const auto context = open_context(Backend::Osmesa);
+  Renderer renderer(context->gl());
+  Snapshot snapshot = driven_box();
+  View view = view_with_field();
+  view.captions = {{"Over the gas", {}, {}}};
+  const std::vector<OverlayPart> all = {OverlayPart::Title,       OverlayPart::Caption,
+                                        OverlayPart::Time,        OverlayPart::Temperature,
+                                        OverlayPart::Collisions,  OverlayPart::ColourBars,
+                                        OverlayPart::ScaleBar,    OverlayPart::Captions};
+  const Camera camera = renderer.fit(snapshot, kSize, view, kText);
+  const auto drawn = [&](const View& shown) {
+    return draw(renderer, context->gl(), snapshot, camera, kSize, shown);
+  };
+  View plain = view;
+  plain.overlay = false;
+  const Image empty = drawn(plain);
+  const auto only = [&](OverlayPart part) {
+    View shown = view;
+    shown.overlay_hides = all;
+    std::erase(shown.overlay_hides, part);
+    return drawn(shown);
+  };
+  // The rectangle of the pixels that differ, as shares of the picture from its upper left corner.
+  struct Area {
+    double left = 1.0, right = 0.0, top = 1.0, bottom = 0.0;
+  };
+  const auto changed = [&](const Image& picture) {
+    Area area;
+    for (int y = 0; y < kSize.height; ++y) {
+      for (int x = 0; x < kSize.width; ++x) {
+        if (pixel(picture, x, y) == pixel(empty, x, y)) continue;
+        area.left = std::min(area.left, 1.0 * x / kSize.width);
+        area.right = std::max(area.right, 1.0 * x / kSize.width);
+        area.top = std::min(area.top, 1.0 * y / kSize.height);
+        area.bottom = std::max(area.bottom, 1.0 * y / kSize.height);
+      }
+    }
+    return area;
+  };
+  const Area title = changed(only(OverlayPart::Title)), caption = changed(only(OverlayPart::Caption));
+  CHECK(title.right < 0.4);
+  CHECK(title.bottom < 0.2);
+  CHECK(caption.right < 0.4);
+  CHECK(caption.bottom < 0.3);
+  const Area bars = changed(only(OverlayPart::ColourBars));
+  CHECK(bars.left > 0.6);
+  const Area captions = changed(only(OverlayPart::Captions));
+  CHECK(captions.top > 0.6);
+  CHECK(captions.left > 0.4);
+  CHECK(captions.right < 0.75);
+  const Area scale = changed(only(OverlayPart::ScaleBar));
+  CHECK(scale.right < 0.4);
+  CHECK(scale.top > 0.7);
+
+  // Each figure follows its own value.
+  Snapshot later = snapshot;
+  const auto follows = [&](OverlayPart part) {
+    const Image before = only(part);
+    std::swap(snapshot, later);
+    const Image after = only(part);
+    std::swap(snapshot, later);
+    CHECK(changed(before).top > 0.7);
+    return difference(before, after) > 0;
+  };
+  const auto followers = [&] {
+    return std::array{follows(OverlayPart::Time), follows(OverlayPart::Temperature),
+                      follows(OverlayPart::Collisions)};
+  };
+  later.temperature = 0.5;
+  CHECK(followers() == std::array{false, true, false});
+  later = snapshot;
+  later.collisions = 7;
+  CHECK(followers() == std::array{false, false, true});
+  later = snapshot;
+  later.time = 99.0;
+  CHECK(followers() == std::array{true, false, false});
+
+  View none = view;
+  none.overlay_hides = all;
+  CHECK(difference(drawn(none), empty) == 0);
+  // In a high picture the box is larger without the scales beside it.
+  constexpr Size kHigh{360, 640};
+  CHECK(renderer.fit(snapshot, kHigh, none, kText).width <
+        renderer.fit(snapshot, kHigh, view, kText).width);
 }
 
 }  // namespace clatter
