@@ -59,8 +59,8 @@ FrameRange parse_frames(const std::string& text) {
 long count_frames(const FrameTimes& times, const std::optional<double>& to) {
   constexpr double kFilmSeconds = 20.0;
   constexpr double kMaxFrames = 1e7;
-  const double span = to ? *to - times.from : kFilmSeconds * times.speed;
-  const double frames = std::max(1.0, std::round(span * times.fps / times.speed));
+  const double seconds = to ? times.seconds_at(*to) : kFilmSeconds;
+  const double frames = std::max(1.0, std::round(seconds * times.fps));
   if (frames <= kMaxFrames) return static_cast<long>(frames);
   throw UserError({"--to", 0, 0}, "the film would have " + number_text(frames) + " frames",
                   "choose a larger --speed, or an earlier --to");
@@ -79,7 +79,7 @@ FilmState new_film(const RenderOptions& options, const View& view, double start)
   film.overlay = view.overlay && !options.no_overlay;
   if (options.sound) film.sound.emplace();
   film.times = {options.from.value_or(start), options.speed.value_or(view.speed),
-                options.fps.value_or(preset_fps(options, quality)), 1};
+                options.fps.value_or(preset_fps(options, quality)), 1, view.pace};
   if (film.times.from < start) {
     throw UserError({"--from", 0, 0}, "the checkpoint is at t = " + number_text(start),
                     "give a later time, or omit --from");
@@ -180,6 +180,7 @@ FilmState restarted(FilmState film) {
   film.ranges.reset();
   film.camera.reset();
   film.shown.clear();
+  film.plots.clear();
   film.checksums.clear();
   film.notes.clear();
   film.companions.clear();

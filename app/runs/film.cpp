@@ -13,9 +13,14 @@
 namespace clatter {
 
 template <class Archive>
+static void visit(Archive& io, PaceKey& key) {
+  io(key.time, key.factor);
+}
+
+template <class Archive>
 static void visit(Archive& io, FrameTimes& times) {
-  auto& [from, speed, fps, count] = times;
-  io(from, speed, fps, count);
+  auto& [from, speed, fps, count, pace] = times;
+  io(from, speed, fps, count, pace);
 }
 
 template <class Archive>
@@ -60,10 +65,9 @@ std::optional<FilmState> film_of(const Resumed& resumed) {
 }
 
 // The texts of the cells. Cells beside each other have headings of one height and no captions.
-static std::vector<OverlayText> texts_of(const std::vector<ComparedScene>& compared, double speed) {
+static std::vector<OverlayText> texts_of(const std::vector<ComparedScene>& compared) {
   const Scene& first = compared.front().scene;
   OverlayText text{first.title, first.caption};
-  text.speed = speed;
   if (compared.size() == 1) return {text};
   text.caption.clear();
   text.beside = cell_titles(compared);
@@ -84,7 +88,7 @@ Film<D>::Film(Run<D>& run, const std::vector<ComparedScene>& compared, const Vie
                     "give the same scenes, or begin another film with --from");
   }
   state_.companions.resize(companions);
-  run_.scheduled().show(view, state_.shown, state_.exposure());
+  run_.scheduled().show(view, state_.shown, state_.largest_exposure());
   run_.film_state = [this] { return state_now(); };
   if (!view.plots.empty()) {
     plots_.emplace(run_.scheduled(), view_, state_.times.speed, state_.plots);
@@ -103,7 +107,7 @@ Film<D>::Film(Run<D>& run, const std::vector<ComparedScene>& compared, const Vie
 template <int D>
 void Film<D>::add_cells(const std::vector<ComparedScene>& compared, const View& view, int threads,
                         const Gl& gl) {
-  const std::vector<OverlayText> texts = texts_of(compared, state_.times.speed);
+  const std::vector<OverlayText> texts = texts_of(compared);
   const Size whole = strip_ ? split_for_plots(state_.size).gases.size : state_.size;
   const auto add = [&](std::size_t k, const View& own) {
     const PictureCell cell =
@@ -115,7 +119,7 @@ void Film<D>::add_cells(const std::vector<ComparedScene>& compared, const View& 
     View own = compared[k].scene.view;
     own.overlay = own.overlay && view.overlay;
     own.plots = view.plots;
-    companions_.push_back(companion_of(compared[k], own, state_.exposure(), state_.times.speed,
+    companions_.push_back(companion_of(compared[k], own, state_.largest_exposure(), state_.times.speed,
                                        threads, state_.companions[k - 1].run, "--resume"));
     add(k, own);
   }
@@ -206,6 +210,11 @@ template <int D>
 std::vector<Snapshot> Film<D>::snapshots() {
   std::vector<Snapshot> now = {run_.scheduled().snapshot()};
   for (const auto& companion : companions_) now.push_back(companion->snapshot());
+  const double speed = state_.times.speed_at(now[0].time);
+  for (Snapshot& snapshot : now) {
+    snapshot.exposure = std::min(snapshot.exposure, state_.exposure(speed));
+  }
+  for (FilmCell& cell : cells_) cell.set_speed(speed);
   if (companions_.size() > 0 && state_.times.count == 1) {
     std::vector<RangeEnds> ranges;
     for (std::size_t k = 0; k < now.size(); ++k) {
@@ -249,7 +258,7 @@ bool Film<D>::choose_ranges(Progress& progress) {
   if (state_.ranges || state_.times.count == 1) return true;
   const double last = state_.times.last();
   std::vector<RangeEnds> ranges = {
-      first_ranges(run_.scheduled(), scene_, cells_[0].view(), state_.exposure(), last)};
+      first_ranges(run_.scheduled(), scene_, cells_[0].view(), state_.largest_exposure(), last)};
   for (const auto& companion : companions_) ranges.push_back(companion->first_ranges(last));
   // The look-ahead may have been interrupted.
   if (!run_.until(run_.simulation().time(), progress)) return false;
@@ -318,7 +327,7 @@ void Film<D>::render_sound(FrameSink& sink) {
   const FrameTimes& times = state_.times;
   Synthesiser& synthesiser = *state_.sound->synthesiser;
   for (const Click& click : clicks_.take()) {
-    synthesiser.add(click, (click.time - times.from) / times.speed);
+    synthesiser.add(click, times.seconds_at(click.time));
   }
   sink.add_sound(synthesiser.render(samples_before(state_.next, times.fps)));
   state_.sound->checksum = sink.sound_checksum();

@@ -11,6 +11,7 @@
 #include "app/runs/companion.h"
 #include "app/runs/compared_scenes.h"
 #include "app/runs/film_cell.h"
+#include "app/runs/frame_times.h"
 #include "app/runs/run.h"
 #include "engine/publish/click_recorder.h"
 #include "render/layers/plot_strip.h"
@@ -23,17 +24,6 @@ namespace clatter {
 struct FrameRange {
   long begin = 0;
   long end = 0;
-};
-
-/// The times of frames. Frame k is at from + k speed/fps.
-struct FrameTimes {
-  double from = 0.0;   ///< simulation time of the first frame
-  double speed = 1.0;  ///< simulation time per second of film
-  double fps = 30.0;   ///< frames per second of film
-  long count = 1;      ///< of the whole film, including parts made elsewhere
-
-  double of(long frame) const { return from + static_cast<double>(frame) * (speed / fps); }
-  double last() const { return of(count - 1); }
 };
 
 /// The sound of a film before its next frame.
@@ -72,8 +62,10 @@ struct FilmState {
   std::vector<PngText> notes = {};              ///< of the picture before `next`
   std::vector<CompanionState> companions = {};  ///< of a film that compares gases, in order
 
-  /// The simulation time that a frame averages over, before its own time.
-  double exposure() const { return shutter * times.speed / times.fps; }
+  /// The simulation time that a frame averages over, before its own time, at a speed.
+  double exposure(double speed) const { return shutter * speed / times.fps; }
+  /// The largest exposure of a frame.
+  double largest_exposure() const { return exposure(times.largest_speed()); }
 };
 
 /// The bytes of a film's state in a checkpoint.

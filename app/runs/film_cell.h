@@ -23,6 +23,8 @@ class FilmCell {
   Camera fit(const Snapshot& snapshot) {
     return renderer_.fit(snapshot, canvas_.size(), view_, text_, ranges_.legends(snapshot, view_));
   }
+  /// Sets the simulation time per second of film, for captions that fade.
+  void set_speed(double speed) { text_.speed = speed; }
   /// Sets the title card to its state `seconds` after the start of the film.
   void show_card(double seconds);
   /// The picture of a snapshot. `whole` is the result of fit(). Throws Interrupted.

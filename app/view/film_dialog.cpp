@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "app/runs/frame_times.h"
 #include "engine/scene/text.h"
 
 namespace clatter {
@@ -143,10 +144,12 @@ void FilmDialog::choose_times(Controls& controls) {
   controls.entry("film.to", "To", "Simulation time of the end. It may be later than the run",
                  film_.to);
   controls.entry("film.speed", "Speed", "Simulation time per second of film", film_.speed);
-  double length = (film_.to - film_.from) / film_.speed;
+  const FrameTimes at_speed_1{.from = film_.from, .pace = run_.pace};
+  const double span = at_speed_1.seconds_at(film_.to);
+  double length = span / film_.speed;
   if (controls.entry("film.length", "Length in s", "Length of the film. It sets the speed",
                      length)) {
-    film_.speed = short_time((film_.to - film_.from) / length);
+    film_.speed = short_time(span / length);
   }
 }
 

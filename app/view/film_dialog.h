@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/view/controls.h"
+#include "engine/scene/view.h"
 
 namespace clatter {
 
@@ -31,6 +32,7 @@ struct FilmedRun {
   bool overlay = true;    ///< whether its pictures have title, figures and scales
   std::size_t gases = 1;  ///< number of compared gases; a film of several has no sound
   bool plots = false;     ///< whether its scene has plots
+  std::vector<PaceKey> pace = {};  ///< of its films, see View::pace
 };
 
 /// A film format that the dialog offers.

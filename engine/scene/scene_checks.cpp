@@ -209,6 +209,19 @@ static void check_observables(const Scene& scene, const toml::table& root,
   }
 }
 
+/// Throws unless the times of a list increase.
+template <class Key>
+static void check_order(const std::vector<Key>& keys, const char* list, const char* time,
+                        const toml::table& root, const std::string& file) {
+  for (std::size_t k = 1; k < keys.size(); ++k) {
+    if (keys[k].time > keys[k - 1].time) continue;
+    throw UserError(place_of(root, list, file),
+                    time + number_text(keys[k].time) + " comes after " +
+                        number_text(keys[k - 1].time),
+                    "give each time once, in order");
+  }
+}
+
 /// Throws unless the camera's times increase, and its positions have the dimension of the box.
 static void check_camera(const Scene& scene, const toml::table& root, const std::string& file) {
   const std::vector<CameraKey>& keys = scene.view.camera;
@@ -219,13 +232,12 @@ static void check_camera(const Scene& scene, const toml::table& root, const std:
         "the centre of the camera has " + std::to_string(key.centre->size()) + " numbers",
         "give " + std::to_string(scene.dimension()) + ", as in box.size");
   }
-  for (std::size_t k = 1; k < keys.size(); ++k) {
-    if (keys[k].time > keys[k - 1].time) continue;
-    throw UserError(place_of(root, "view.camera", file),
-                    "the camera's time " + number_text(keys[k].time) + " comes after " +
-                        number_text(keys[k - 1].time),
-                    "give each time once, in order");
-  }
+  check_order(keys, "view.camera", "the camera's time ", root, file);
+}
+
+/// Throws unless the pace of films has its times in order.
+static void check_pace(const Scene& scene, const toml::table& root, const std::string& file) {
+  check_order(scene.view.pace, "view.pace", "the time ", root, file);
 }
 
 /// Throws unless the marks of all captions are complete.
@@ -272,6 +284,7 @@ void check_scene(const Scene& scene, const toml::table& root, const std::string&
   check_kernel(scene, root, file);
   check_observables(scene, root, file);
   check_camera(scene, root, file);
+  check_pace(scene, root, file);
   check_captions(scene, root, file);
   check_plots(scene, root, file);
 }

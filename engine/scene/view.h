@@ -67,6 +67,12 @@ struct CameraKey {
   std::optional<double> elevation = {};  ///< of spheres, degrees; absent: as View::elevation
 };
 
+/// A key of the pace of films. Between two keys the factor is linear in simulation time.
+struct PaceKey {
+  double time = 0.0;    ///< simulation time, >= 0
+  double factor = 1.0;  ///< speed of the film over View::speed, > 0
+};
+
 /// A text over pictures, for some time.
 struct Caption {
   std::string text;                 ///< see marked_text()
@@ -157,6 +163,7 @@ struct View {
   double volume = 0.0;
   Lecture lecture = {};           ///< parts of the window in lecture mode
   std::vector<Caption> captions;  ///< in any order; several at one time are below each other
+  std::vector<PaceKey> pace = {};  ///< in order of time; empty: the factor is 1
   std::vector<CameraKey> camera;  ///< in order of time; empty: always the whole box
 
   /// Replaces colours and fields of spins: the colour by the speed, the heatmap by none. Returns

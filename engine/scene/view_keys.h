@@ -39,6 +39,17 @@ void visit_camera(Visitor& io, CameraKey& key, int dimension) {
   }
 }
 
+inline constexpr auto kPaceKeys = key_table(
+    "render", {{"time", "t", "Simulation time at which the film has this pace. Times increase."},
+               {"factor", "1", "Factor of the film's speed: below 1 slow motion."}});
+
+/// The keys of one item of [[view.pace]].
+template <class Visitor>
+void visit_pace(Visitor& io, PaceKey& key) {
+  io.value(kPaceKeys.at("time"), key.time, at_least(0.0), kRequired);
+  io.value(kPaceKeys.at("factor"), key.factor, between(1e-6, 1e6), kRequired);
+}
+
 inline constexpr auto kCaptionKeys = key_table(
     "view render",
     {{"text", "",
@@ -186,6 +197,7 @@ void visit_view(Visitor& io, View& view, int dimension) {
   io.table("lecture", [&](auto& io) { visit_lecture(io, view.lecture); });
   io.list("captions", view.captions,
           [](auto& io, Caption& caption) { visit_caption(io, caption); });
+  io.list("pace", view.pace, [](auto& io, PaceKey& key) { visit_pace(io, key); });
   io.list("camera", view.camera,
           [&](auto& io, CameraKey& key) { visit_camera(io, key, dimension); });
 }

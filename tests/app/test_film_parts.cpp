@@ -18,7 +18,7 @@ const std::string kFilm =
 
 void write_scene(const Shell& shell) {
   write_film_scene(shell,
-                   ", arrows = \"velocity\", camera = [{ time = 5.0 }, { time = 9.0, follow = 3, "
+                   ", plots = [\"temperature\", \"density_profile\"], arrows = \"velocity\", camera = [{ time = 5.0 }, { time = 9.0, follow = 3, "
                    "width = 8.0 }]",
                    "[[change]]\ntime = 4.0\nset = { \"walls.left.stroke\" = 1.0 }\n");
 }
@@ -213,7 +213,7 @@ TEST_CASE("Film parts: an interrupt ends a film whose encoder does not read its 
   shell.run("mkdir deaf");
   shell.write("deaf/ffmpeg", "#!/bin/sh\nexec sleep 1000\n");
   shell.run("chmod +x deaf/ffmpeg");
-  for (const std::string size : {"16x16", "640x480"}) {
+  for (const std::string size : {"24x16", "640x480"}) {
     CAPTURE(size);
     const Outcome outcome = shell.run(
         "PATH=$PWD/deaf:$PATH timeout --preserve-status -k 20 -s INT 1 clatter render scene.toml "

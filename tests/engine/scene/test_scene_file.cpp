@@ -247,6 +247,7 @@ Scene unusual_scene() {
       .trails = 0.75,
       .card = 1e-3,
       .captions = {{.text = "T_x \\_", .from = {}, .to = 0.1}, {.text = "", .from = 0.3, .to = {}}},
+      .pace = {{0.0, 1e-6}, {7.5, 2.0}},
       .camera = {{.time = 0.5, .centre = {}, .follow = 1, .width = 0.1},
                  {.time = 1e9, .centre = Vec2(-1.0, 1e-7), .follow = {}, .width = {}}}};
   return scene;

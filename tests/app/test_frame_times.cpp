@@ -1,0 +1,111 @@
+// The times of the frames of a film.
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "app/runs/frame_times.h"
+#include "tests/app/film_scene.h"
+
+namespace clatter {
+
+namespace {
+
+// Slow motion around t = 12, and a faster end.
+FrameTimes paced(double from) {
+  return {from, 2.0, 25.0, 800, {{10.0, 1.0}, {11.5, 0.05}, {12.5, 0.05}, {14.0, 1.0}, {15.0, 3.0}}};
+}
+
+// The factor of paced(), by another way.
+double factor_at(double time) {
+  if (time < 10.0) return 1.0;
+  if (time < 11.5) return 1.0 - 0.95 * (time - 10.0) / 1.5;
+  if (time < 12.5) return 0.05;
+  if (time < 14.0) return 0.05 + 0.95 * (time - 12.5) / 1.5;
+  return std::min(1.0 + 2.0 * (time - 14.0), 3.0);
+}
+
+// Seconds of film between two times by the midpoint rule, whose relative error is below 1e-6 here.
+double integrated(double from, double to) {
+  constexpr int kSteps = 2'000'000;
+  double sum = 0.0;
+  for (int k = 0; k < kSteps; ++k) {
+    sum += 1.0 / factor_at(from + (to - from) * (k + 0.5) / kSteps);
+  }
+  return sum * (to - from) / kSteps / 2.0;
+}
+
+}  // namespace
+
+TEST_CASE("Frame times: without a pace, frames are at equal distances") {
+  const FrameTimes times{3.0, 2.0, 25.0, 50, {}};
+  CHECK(times.of(0) == 3.0);
+  CHECK(times.of(10) == 3.0 + 10 * (2.0 / 25.0));
+  CHECK(times.last() == times.of(49));
+  CHECK(times.seconds_at(5.0) == 1.0);
+  CHECK(times.speed_at(5.0) == 2.0);
+  CHECK(times.largest_speed() == 2.0);
+}
+
+TEST_CASE("Frame times: the seconds of film are the integral over the pace") {
+  for (const double from : {0.0, 10.4, 12.0, 14.5, 20.0}) {
+    CAPTURE(from);
+    const FrameTimes times = paced(from);
+    CHECK(times.seconds_at(from) == 0.0);
+    for (const double to : {10.7, 11.5, 12.2, 13.0, 14.9, 15.0, 22.0}) {
+      if (to <= from) continue;
+      CAPTURE(to);
+      CHECK(times.seconds_at(to) == doctest::Approx(integrated(from, to)).epsilon(1e-5));
+    }
+  }
+}
+
+TEST_CASE("Frame times: each frame is a frame's length after the one before") {
+  for (const double from : {0.0, 10.4, 12.0, 14.5, 20.0}) {
+    CAPTURE(from);
+    const FrameTimes times = paced(from);
+    CHECK(times.of(0) == from);
+    double before = from;
+    for (long frame = 1; frame < times.count; ++frame) {
+      const double time = times.of(frame);
+      CHECK(time > before);
+      CHECK(times.seconds_at(time) == doctest::Approx(frame / times.fps).epsilon(1e-12));
+      before = time;
+    }
+    CHECK(before > 15.0);
+  }
+}
+
+TEST_CASE("Frame times: the speed follows the pace") {
+  const FrameTimes times = paced(0.0);
+  for (const double time : {0.0, 5.0, 10.0, 10.6, 11.5, 12.0, 13.3, 14.2, 15.0, 99.0}) {
+    CAPTURE(time);
+    CHECK(times.speed_at(time) == doctest::Approx(2.0 * factor_at(time)).epsilon(1e-12));
+  }
+  CHECK(times.largest_speed() == 6.0);
+}
+
+TEST_CASE("Frame times: a film has the frames of its pace, and refuses times out of order") {
+  const Shell shell;
+  write_film_scene(shell);
+  const std::string line =
+      "clatter render scene.toml --quiet --size 64x48 --fps 10 --speed 1 --out frames --set ";
+  // From t = 1 on half as fast: 10 frames, then 20.
+  REQUIRE(shell.run(line + "'view.pace=[{time=1.0,factor=1.0},{time=1.000001,factor=0.5}]' --to 2")
+              .code == 0);
+  CHECK(shell.run("ls frames | wc -l").out == "30\n");
+  const auto time_of = [&](const std::string& frame) {
+    return std::stod(*png_text(shell.path("frames/frame_0000" + frame + ".png"),
+                               "Simulation time"));
+  };
+  CHECK(time_of("05") == doctest::Approx(0.5).epsilon(1e-5));
+  CHECK(time_of("12") == doctest::Approx(1.1).epsilon(1e-5));
+  CHECK(time_of("29") == doctest::Approx(1.95).epsilon(1e-5));
+  check_refused(shell,
+                line + "'view.pace=[{time=3.0,factor=1.0},{time=2.0,factor=0.5}]' --to 2",
+                {"view.pace", "the time 2 comes after 3"});
+  check_refused(shell, line + "'view.pace=[{time=3.0,factor=0.0}]' --to 2", {"view.pace.factor"});
+}
+
+}  // namespace clatter
