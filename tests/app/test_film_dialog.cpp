@@ -114,7 +114,7 @@ TEST_CASE("Film dialog: the length follows the pace of the scene") {
   ShownDialog shown;
   // The film has half the speed up to t = 100.
   shown.open({100.0, 2.0, true, 1, false, {{0.0, 0.5}, {100.0, 0.5}}}, "no-such-film.mp4");
-  CHECK(says(text_of(shown.driver), "Length in s 100"));
+  CHECK(says(text_of(shown.driver), "Length in s { 100 }"));
 }
 
 TEST_CASE("Film dialog: lists and boxes set quality, format and content") {
