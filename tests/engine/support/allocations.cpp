@@ -61,10 +61,18 @@ void operator delete(void* memory, std::size_t) noexcept {
   give_back(memory);
 }
 
-void operator delete(void* memory, std::align_val_t alignment) noexcept {
+static void give_back_aligned(void* memory, std::align_val_t alignment) {
   if (!memory) return;
   in_use -= static_cast<std::size_t*>(memory)[-1];
   std::free(static_cast<char*>(memory) - static_cast<std::size_t>(alignment));
+}
+
+void operator delete(void* memory, std::align_val_t alignment) noexcept {
+  give_back_aligned(memory, alignment);
+}
+
+void operator delete(void* memory, std::size_t, std::align_val_t alignment) noexcept {
+  give_back_aligned(memory, alignment);
 }
 
 std::size_t clatter::testing::allocated_bytes() {
