@@ -93,7 +93,7 @@ FilmState new_film(const RenderOptions& options, const View& view, double start)
   if (!options.one_picture()) {
     film.times.count = count_frames(film.times, to);
   } else if (!options.from || to) {
-    film.times.from = to.value_or(film.times.from + kPictureSeconds * film.times.speed);
+    film.times.from = to.value_or(film.times.time_after(kPictureSeconds));
   }
   return film;
 }
@@ -156,7 +156,8 @@ FilmState continued_film(const RenderOptions& options, FilmState film) {
 
 void require_few_windows(const View& view, double last) {
   constexpr double kMaxWindows = 1e7;
-  if (!view.shows_averages() || last / view.window <= kMaxWindows) return;
+  const bool averages = view.shows_averages() || std::ranges::any_of(view.plots, is_profile);
+  if (!averages || last / view.window <= kMaxWindows) return;
   throw UserError({"view.window", 0, 0}, number_text(view.window) + " is too short for this film",
                   "choose at least " + number_text(last / kMaxWindows));
 }

@@ -68,6 +68,8 @@ class History {
   const std::vector<Sample>& samples() const { return samples_; }
   /// Histogram of all particles over the last seconds.
   const VelocityHistogram& velocities() const { return velocities_; }
+  /// The smallest time between later samples.
+  double spacing() const { return spacing_; }
 
   /// Visits all members, for checkpoints.
   template <class Archive>

@@ -6,39 +6,58 @@
 
 #include "engine/checkpoint/archive.h"
 #include "engine/publish/publish.h"
+#include "engine/scene/scene_file.h"
 
 namespace clatter {
 
 template <int D>
-PlotRecorder<D>::PlotRecorder(ScheduledRun<D>& run, const View& view, double speed,
-                              const std::string& saved)
-    : run_(run), view_(view), spacing_(speed / History::kPerSecond) {
+PlotRecorder<D>::PlotRecorder(ScheduledRun<D>& run, const FilmPlots& film, const std::string& saved)
+    : run_(run),
+      axis_(static_cast<int>(film.axis) < D ? film.axis : Axis::X),
+      has_profile_(std::ranges::any_of(film.plots, is_profile)),
+      spacing_(film.speed / History::kPerSecond) {
   frame_.run = 1;
-  frame_.speed = speed;
+  frame_.speed = film.speed;
+  if (!saved.empty() && resume(saved)) return;
   Simulation<D>& simulation = run.simulation();
-  if (saved.empty()) {
-    next_ = static_cast<std::uint64_t>(simulation.time() / spacing_) + 1;
-    watch(simulation);
-    return;
-  }
-  simulation.add_observer(totals_.emplace(simulation));
-  ArchiveReader reader(saved, "--resume");
-  visit(reader);
-  if (has_profile()) profile_.emplace(simulation, profile_window(), profile_axis(), reader);
-  reader.finish();
+  next_ = static_cast<std::uint64_t>(simulation.time() / spacing_) + 1;
+  watch(simulation);
 }
 
+// The laws that samples belong to. Profiles also depend on the view and on the axis.
 template <int D>
-bool PlotRecorder<D>::has_profile() const {
-  return std::ranges::any_of(view_.plots,
-                             [](FilmPlot plot) { return plot >= FilmPlot::DensityProfile; });
+std::string PlotRecorder<D>::laws() const {
+  return scene_to_toml(run_.laws()) + static_cast<char>('x' + static_cast<int>(axis_));
 }
 
 template <int D>
 void PlotRecorder<D>::watch(Simulation<D>& simulation) {
   simulation.add_observer(totals_.emplace(simulation));
   profile_.reset();
-  if (has_profile()) profile_.emplace(simulation, profile_window(), profile_axis());
+  if (has_profile_) profile_.emplace(simulation, profile_window(), axis_);
+}
+
+// Returns false if the saved samples belong to other laws or plots.
+template <int D>
+bool PlotRecorder<D>::resume(const std::string& saved) {
+  constexpr const char* kFile = "--resume";
+  std::string saved_laws, samples, profile;
+  ArchiveReader reader(saved, kFile);
+  reader(saved_laws, samples, profile);
+  reader.finish();
+  if (saved_laws != laws() || profile.empty() == has_profile_) return false;
+  Simulation<D>& simulation = run_.simulation();
+  simulation.add_observer(totals_.emplace(simulation));
+  ArchiveReader of_samples(samples, kFile);
+  visit(of_samples);
+  of_samples.finish();
+  if (has_profile_) {
+    ArchiveReader of_profile(profile, kFile);
+    profile_.emplace(simulation, profile_window(), axis_, of_profile);
+    of_profile.finish();
+  }
+  frame_.snapshot = snapshot_of(simulation);
+  return true;
 }
 
 template <int D>
@@ -48,11 +67,13 @@ void PlotRecorder<D>::follow(Simulation<D>& next) {
   frame_.scene.reset();
 }
 
+// The spacing grows with that of the history, which keeps a bounded number of samples.
 template <int D>
 bool PlotRecorder<D>::run_until(double time, const std::function<bool(double time)>& run) {
-  for (; next_time() <= time; ++next_) {
+  while (next_time() <= time) {
     if (!run(next_time())) return false;
     take_sample();
+    next_ += static_cast<std::uint64_t>(std::max(1.0, std::round(history_.spacing() / spacing_)));
   }
   return run(time);
 }
@@ -75,10 +96,12 @@ PlottedGas PlotRecorder<D>::gas() {
 
 template <int D>
 std::string PlotRecorder<D>::save() {
-  ArchiveWriter writer;
-  visit(writer);
-  if (profile_) writer(*profile_);
-  return writer.written();
+  ArchiveWriter samples, profile, all;
+  visit(samples);
+  if (profile_) profile(*profile_);
+  std::string of_laws = laws(), of_samples = samples.written(), of_profile = profile.written();
+  all(of_laws, of_samples, of_profile);
+  return all.written();
 }
 
 template class PlotRecorder<2>;

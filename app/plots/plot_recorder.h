@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/plots/history.h"
 #include "app/plots/plots.h"
@@ -13,14 +14,20 @@
 
 namespace clatter {
 
+/// The plots of a film.
+struct FilmPlots {
+  std::vector<FilmPlot> plots;
+  Axis axis = Axis::X;  ///< of profiles, those of disks along z are along x
+  double speed = 1.0;   ///< simulation time per second of film
+};
+
 /// Samples a run for the plots of its film.
 template <int D>
 class PlotRecorder {
  public:
-  /// Samples from the present time of the run on, for a film with `speed` time units per second.
-  /// `view` has its plots. The samples continue the result of save(), if it is not empty. Both must
-  /// outlive the recorder. Throws UserError if `saved` belongs to other plots.
-  PlotRecorder(ScheduledRun<D>& run, const View& view, double speed, const std::string& saved);
+  /// Samples from the present time of the run on. The samples continue the result of save(), unless
+  /// it is empty or belongs to other laws or plots. `run` must outlive the recorder.
+  PlotRecorder(ScheduledRun<D>& run, const FilmPlots& film, const std::string& saved);
 
   /// Runs to a time by `run`, which returns false at an early end, and takes samples on the way.
   /// Returns false at an early end.
@@ -34,10 +41,10 @@ class PlotRecorder {
 
  private:
   double next_time() const { return static_cast<double>(next_) * spacing_; }
-  bool has_profile() const;
-  double profile_window() const { return view_.window / kWindowParts; }
-  Axis profile_axis() const { return run_.laws().measure.profile_axis; }
+  double profile_window() const { return run_.laws().view.window / kWindowParts; }
+  std::string laws() const;
   void watch(Simulation<D>& simulation);
+  bool resume(const std::string& saved);
   void take_sample();
   template <class Archive>
   void visit(Archive& io) {
@@ -45,8 +52,9 @@ class PlotRecorder {
   }
 
   ScheduledRun<D>& run_;
-  const View& view_;
-  double spacing_;          // time between samples
+  Axis axis_;
+  bool has_profile_;
+  double spacing_;          // shortest time between samples
   std::uint64_t next_ = 1;  // number of the next sample; sample 0 is at time 0
   Tally tally_ = empty_tally(D);
   History history_;

@@ -353,16 +353,21 @@ static LecturePlot kind_of(FilmPlot which) {
       return LecturePlot::Energy;
     case FilmPlot::Velocities:
       return LecturePlot::Velocities;
-    default:
+    case FilmPlot::DensityProfile:
+    case FilmPlot::TemperatureProfile:
+    case FilmPlot::StressProfile:
+    case FilmPlot::HeatFluxProfile:
+    case FilmPlot::DissipationProfile:
       return LecturePlot::Profile;
   }
+  return LecturePlot::None;
 }
 
 std::optional<LivePlot> film_plot(FilmPlot which, const std::vector<PlottedGas>& gases,
                                   const ThemeColours& theme) {
   const LecturePlot kind = kind_of(which);
   const auto first = static_cast<int>(FilmPlot::DensityProfile);
-  const int profiled = kind == LecturePlot::Profile ? static_cast<int>(which) - first : 0;
+  const int profiled = is_profile(which) ? static_cast<int>(which) - first : 0;
   return lecture_plot(kind, gases, static_cast<std::size_t>(profiled), theme);
 }
 

@@ -83,7 +83,10 @@ static bool is_homogeneous_gas(const Scene& scene) {
 }
 
 bool cools_freely(const Scene& scene) {
-  const bool loses = scene.particles.restitution < 1.0 || scene.spins();
+  const Particles& particles = scene.particles;
+  const bool perfect = std::isinf(particles.roughness.friction_in_force()) &&
+                       particles.roughness.tangential_restitution_in_force() == 1.0;
+  const bool loses = particles.restitution < 1.0 || (scene.spins() && !perfect);
   return is_homogeneous_gas(scene) && !scene.bulk_drive && loses;
 }
 

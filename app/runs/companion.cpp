@@ -19,16 +19,17 @@ namespace {
 template <int D>
 class CompanionRun final : public Companion {
  public:
-  CompanionRun(const ComparedScene& compared, const View& view, double exposure)
-      : compared_(compared), view_(view), exposure_(exposure) {}
+  CompanionRun(const ComparedScene& compared, const View& view, const FilmPlots& plots,
+               double exposure)
+      : compared_(compared), view_(view), film_(plots), exposure_(exposure) {}
 
   // Starts the run from time 0.
-  void begin(double speed, int threads) {
+  void begin(int threads) {
     run_.emplace(compared_.scene, compared_.seed, interrupted);
-    start("", "", speed, threads);
+    start("", "", threads);
   }
   // Continues the result of save(). `file` is the name of the checkpoint.
-  void resume(const std::string& saved, const std::string& file, double speed, int threads) {
+  void resume(const std::string& saved, const std::string& file, int threads) {
     std::string scene, shown, plots;
     std::uint64_t seed = 0;
     RunState<D> state;
@@ -41,7 +42,7 @@ class CompanionRun final : public Companion {
     reader(state, shown, plots);
     reader.finish();
     run_.emplace(compared_.scene, seed, state, interrupted);
-    start(shown, plots, speed, threads);
+    start(shown, plots, threads);
   }
 
   bool run_until(double time) override {
@@ -67,16 +68,17 @@ class CompanionRun final : public Companion {
   }
 
  private:
-  void start(const std::string& shown, const std::string& plots, double speed, int threads) {
+  void start(const std::string& shown, const std::string& plots, int threads) {
     run_->use_threads(threads);
     run_->show(view_, shown, exposure_);
-    if (view_.plots.empty()) return;
-    plots_.emplace(*run_, view_, speed, plots);
+    if (film_.plots.empty()) return;
+    plots_.emplace(*run_, film_, plots);
     run_->on_change = [this](Simulation<D>& next) { plots_->follow(next); };
   }
 
   ComparedScene compared_;
   View view_;
+  FilmPlots film_;
   double exposure_;
   std::optional<ScheduledRun<D>> run_;
   std::optional<PlotRecorder<D>> plots_;  // absent: no plots
@@ -85,15 +87,15 @@ class CompanionRun final : public Companion {
 }  // namespace
 
 std::unique_ptr<Companion> companion_of(const ComparedScene& compared, const View& view,
-                                        double exposure, double speed, int threads,
+                                        const FilmPlots& plots, double exposure, int threads,
                                         const std::string& saved, const std::string& file) {
   return with_dimension(
       compared.scene.dimension(), [&](auto dimension) -> std::unique_ptr<Companion> {
-        auto companion = std::make_unique<CompanionRun<dimension>>(compared, view, exposure);
+        auto companion = std::make_unique<CompanionRun<dimension>>(compared, view, plots, exposure);
         if (saved.empty()) {
-          companion->begin(speed, threads);
+          companion->begin(threads);
         } else {
-          companion->resume(saved, file, speed, threads);
+          companion->resume(saved, file, threads);
         }
         return companion;
       });

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "app/plots/plots.h"
+#include "app/plots/plot_recorder.h"
 #include "app/runs/compared_scenes.h"
 #include "engine/publish/snapshot.h"
 #include "render/layers/renderer.h"
@@ -20,7 +20,7 @@ class Companion {
   virtual bool run_until(double time) = 0;
   /// The gas at its time.
   virtual Snapshot snapshot() = 0;
-  /// The gas for plots, without a name. Only if the view has plots. Valid until the next call.
+  /// The gas for plots, without a name. Only if the film has plots. Valid until the next call.
   virtual PlottedGas plotted() = 0;
   /// As first_ranges().
   virtual RangeEnds first_ranges(double last) const = 0;
@@ -30,11 +30,11 @@ class Companion {
   virtual std::string save() = 0;
 };
 
-/// Starts the run of a scene with the averages and plots of a view, or continues the result of
-/// save(); empty: none. The film has `speed` time units per second. `file` is the name of the
-/// checkpoint. Throws UserError if `saved` has another scene or seed.
+/// Starts the run of a scene with the averages of a view and the plots of a film, or continues the
+/// result of save(); empty: none. `file` is the name of the checkpoint. Throws UserError if `saved`
+/// has another scene or seed.
 std::unique_ptr<Companion> companion_of(const ComparedScene& compared, const View& view,
-                                        double exposure, double speed, int threads,
+                                        const FilmPlots& plots, double exposure, int threads,
                                         const std::string& saved, const std::string& file);
 
 }  // namespace clatter

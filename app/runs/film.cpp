@@ -91,7 +91,7 @@ Film<D>::Film(Run<D>& run, const std::vector<ComparedScene>& compared, const Vie
   run_.scheduled().show(view, state_.shown, state_.largest_exposure());
   run_.film_state = [this] { return state_now(); };
   if (!view.plots.empty()) {
-    plots_.emplace(run_.scheduled(), view_, state_.times.speed, state_.plots);
+    plots_.emplace(run_.scheduled(), film_plots(), state_.plots);
     strip_.emplace(gl, split_for_plots(state_.size).plots.size, state_.size, state_.transparent);
   }
   follow_changes();
@@ -101,6 +101,12 @@ Film<D>::Film(Run<D>& run, const std::vector<ComparedScene>& compared, const Vie
     for (std::size_t k = 0; k < companions; ++k) cells_[k + 1].fix(state_.companions[k].ranges);
   }
   if (state_.sound && state_.sound->synthesiser) clicks_.follow(run_.simulation());
+}
+
+// All gases have the plots of the first one.
+template <int D>
+FilmPlots Film<D>::film_plots() const {
+  return {view_.plots, scene_.measure.profile_axis, state_.times.speed};
 }
 
 // The cells of the run and of its companions, and the companions.
@@ -118,8 +124,7 @@ void Film<D>::add_cells(const std::vector<ComparedScene>& compared, const View& 
   for (std::size_t k = 1; k < compared.size(); ++k) {
     View own = compared[k].scene.view;
     own.overlay = own.overlay && view.overlay;
-    own.plots = view.plots;
-    companions_.push_back(companion_of(compared[k], own, state_.largest_exposure(), state_.times.speed,
+    companions_.push_back(companion_of(compared[k], own, film_plots(), state_.largest_exposure(),
                                        threads, state_.companions[k - 1].run, "--resume"));
     add(k, own);
   }
@@ -232,13 +237,17 @@ std::vector<Snapshot> Film<D>::snapshots() {
 
 template <int D>
 Image Film<D>::picture_of(const std::vector<Snapshot>& snapshots) {
-  std::vector<Image> pictures = {cells_[0].draw(snapshots[0], *state_.camera)};
+  std::vector<Image> pictures;
+  pictures.push_back(cells_[0].draw(snapshots[0], *state_.camera));
   for (std::size_t k = 0; k < companions_.size(); ++k) {
     pictures.push_back(cells_[k + 1].draw(snapshots[k + 1], *state_.companions[k].camera));
   }
-  if (!strip_) return joined_cells(state_.size, pictures);
+  if (!strip_) return joined_cells(state_.size, std::move(pictures));
   const auto [gases, plots] = split_for_plots(state_.size);
-  return joined(state_.size, {{gases, joined_cells(gases.size, pictures)}, {plots, strip()}});
+  std::vector<PlacedPicture> parts;
+  parts.push_back({gases, joined_cells(gases.size, std::move(pictures))});
+  parts.push_back({plots, strip()});
+  return joined(state_.size, parts);
 }
 
 // The picture of the plots. Several gases have the letters of their cells.
@@ -246,7 +255,8 @@ template <int D>
 Image Film<D>::strip() {
   std::vector<PlottedGas> gases = {plots_->gas()};
   for (const auto& companion : companions_) gases.push_back(companion->plotted());
-  for (std::size_t k = 0; k < gases.size(); ++k) gases[k].name = std::string(1, static_cast<char>('A' + k));
+  for (std::size_t k = 0; k < gases.size(); ++k)
+    gases[k].name = std::string(1, static_cast<char>('A' + k));
   const ThemeColours theme = theme_of(view_);
   std::vector<std::optional<LivePlot>> plots;
   for (const FilmPlot plot : view_.plots) plots.push_back(film_plot(plot, gases, theme));

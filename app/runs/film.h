@@ -97,6 +97,7 @@ class Film {
 
  private:
   std::string state_now();
+  FilmPlots film_plots() const;
   bool reach(double time, Progress& progress);
   void add_cells(const std::vector<ComparedScene>& compared, const View& view, int threads,
                  const Gl& gl);

@@ -8,23 +8,19 @@ namespace clatter {
 
 namespace {
 
-// A stretch of simulation time from `time` on, at whose begin the factor is `factor`. It changes by
-// `slope` per time.
+// A stretch of simulation time from `time` on, at whose begin the factor is `factor`. The factor
+// changes at a constant rate in the film, so that its square is linear in simulation time:
+// d(factor^2)/dt = 2 rate. Roots are exact to the last bit on all processors, logarithms are not.
 struct Stretch {
-  double time, factor, slope;
+  double time, factor, rate;
 
   double factor_at(double t) const {
-    return slope == 0.0 ? factor : factor + slope * (t - time);
+    return rate == 0.0 ? factor : std::sqrt(factor * factor + 2.0 * rate * (t - time));
   }
-  // Integral of 1/factor from `time` to `t`. log1p is exact for a small change of the factor.
-  double integral(double t) const {
-    const double change = slope * (t - time) / factor;
-    return slope == 0.0 ? (t - time) / factor : std::log1p(change) / slope;
-  }
+  // Integral of 1/factor from `time` to `t`.
+  double integral(double t) const { return 2.0 * (t - time) / (factor + factor_at(t)); }
   // The time at which the integral has a value.
-  double time_at(double value) const {
-    return time + (slope == 0.0 ? value * factor : factor * std::expm1(slope * value) / slope);
-  }
+  double time_at(double value) const { return time + value * (factor + 0.5 * rate * value); }
 };
 
 // The stretches from a time on. The factor is constant before the first key and after the last.
@@ -33,13 +29,14 @@ std::vector<Stretch> stretches_from(double from, const std::vector<PaceKey>& pac
   std::vector<Stretch> stretches = {{0.0, pace.front().factor, 0.0}};
   for (std::size_t k = 0; k + 1 < pace.size(); ++k) {
     const PaceKey &a = pace[k], &b = pace[k + 1];
-    stretches.push_back({a.time, a.factor, (b.factor - a.factor) / (b.time - a.time)});
+    const double squares = b.factor * b.factor - a.factor * a.factor;
+    stretches.push_back({a.time, a.factor, 0.5 * squares / (b.time - a.time)});
   }
   stretches.push_back({pace.back().time, pace.back().factor, 0.0});
   // The last stretch that begins before `from` begins there.
   auto first = std::ranges::upper_bound(stretches, from, {}, &Stretch::time);
   first = std::max(first, stretches.begin() + 1) - 1;
-  *first = {from, first->factor_at(from), first->slope};
+  *first = {from, first->factor_at(from), first->rate};
   stretches.erase(stretches.begin(), first);
   return stretches;
 }
@@ -52,8 +49,16 @@ double end_of(const std::vector<Stretch>& stretches, std::size_t k) {
 }  // namespace
 
 double FrameTimes::of(long frame) const {
-  if (pace.empty()) return from + static_cast<double>(frame) * (speed / fps);
-  double left = static_cast<double>(frame) * (speed / fps);  // integral of 1/factor still to come
+  return time_at(static_cast<double>(frame), speed / fps);
+}
+
+double FrameTimes::time_after(double seconds) const {
+  return time_at(seconds, speed);
+}
+
+double FrameTimes::time_at(double count, double length) const {
+  double left = count * length;  // integral of 1/factor still to come
+  if (pace.empty()) return from + left;
   const std::vector<Stretch> stretches = stretches_from(from, pace);
   for (std::size_t k = 0;; ++k) {
     const double end = end_of(stretches, k);

@@ -20,12 +20,17 @@ struct FrameTimes {
   double of(long frame) const;
   /// Simulation time of the last frame.
   double last() const { return of(count - 1); }
+  /// Simulation time after so many seconds of film.
+  double time_after(double seconds) const;
   /// Seconds of film from the first frame to a simulation time.
   double seconds_at(double time) const;
   /// Simulation time per second of film at a simulation time.
   double speed_at(double time) const;
   /// The largest speed_at() of any time.
   double largest_speed() const;
+
+ private:
+  double time_at(double count, double length) const;
 };
 
 }  // namespace clatter

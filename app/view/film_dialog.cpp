@@ -125,6 +125,18 @@ FilmDialog::Action FilmDialog::draw(Controls& controls) {
   return action;
 }
 
+// The beginning of the last seconds of the film.
+double FilmDialog::begin_of_last(double seconds) const {
+  FrameTimes times{.from = 0.0, .speed = film_.speed, .pace = run_.pace};
+  if (times.seconds_at(film_.to) <= seconds) return 0.0;
+  double low = 0.0, high = film_.to;
+  for (int step = 0; step < 60; ++step) {
+    times.from = 0.5 * (low + high);
+    (times.seconds_at(film_.to) > seconds ? low : high) = times.from;
+  }
+  return high;
+}
+
 // The stretch of simulation time, and the time that it takes in the film.
 void FilmDialog::choose_times(Controls& controls) {
   const float gap = ImGui::GetStyle().ItemSpacing.x;
@@ -138,7 +150,7 @@ void FilmDialog::choose_times(Controls& controls) {
   if (controls.button("film.last", last.c_str(), "The last seconds of playing at this speed",
                       half)) {
     film_.to = run_.latest;
-    film_.from = short_time(std::max(0.0, run_.latest - kLastSeconds * film_.speed));
+    film_.from = short_time(begin_of_last(kLastSeconds));
   }
   controls.entry("film.from", "From", "Simulation time of the first frame", film_.from);
   controls.entry("film.to", "To", "Simulation time of the end. It may be later than the run",

@@ -27,11 +27,11 @@ struct FilmSettings {
 
 /// The run of which the dialog makes a film.
 struct FilmedRun {
-  double latest = 0.0;    ///< latest simulation time
-  double speed = 1.0;     ///< simulation time per second, as it is shown
-  bool overlay = true;    ///< whether its pictures have title, figures and scales
-  std::size_t gases = 1;  ///< number of compared gases; a film of several has no sound
-  bool plots = false;     ///< whether its scene has plots
+  double latest = 0.0;             ///< latest simulation time
+  double speed = 1.0;              ///< simulation time per second, as it is shown
+  bool overlay = true;             ///< whether its pictures have title, figures and scales
+  std::size_t gases = 1;           ///< number of compared gases; a film of several has no sound
+  bool plots = false;              ///< whether its scene has plots
   std::vector<PaceKey> pace = {};  ///< of its films, see View::pace
 };
 
@@ -70,6 +70,7 @@ class FilmDialog {
   const FilmSettings& film() const { return film_; }
 
  private:
+  double begin_of_last(double seconds) const;
   void choose_times(Controls& controls);
   void choose_form(Controls& controls);
   void choose_content(Controls& controls);

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "app/plots/plots.h"
 #include "app/view/lesson.h"
 #include "app/view/panels.h"
-#include "app/plots/plots.h"
 #include "app/view/style.h"
 #include "app/view/table_plots.h"
 #include "app/view/top_bar.h"
@@ -81,11 +81,11 @@ void Gui::draw() {
   }
   if (title_ != session_.opened().title) {
     title_ = session_.opened().title;
-    // A scene with plots shows its law in them.
+    // Opens the plots with a scene that has some.
     if (!panels_.lecture && !controls_.chooses() && !session_.opened().view.plots.empty()) {
       panels_.plots = true;
     }
-    host_.set_title(title_ + " – clatter");
+    host_.set_title(*title_ + " – clatter");
   }
   watch_film();
   use_keys();

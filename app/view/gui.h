@@ -8,19 +8,19 @@
 #include <utility>
 #include <vector>
 
+#include "app/plots/history.h"
+#include "app/plots/plots.h"
 #include "app/runs/compared_scenes.h"
 #include "app/system/program_job.h"
 #include "app/view/controls.h"
 #include "app/view/film_dialog.h"
 #include "app/view/gallery.h"
-#include "app/plots/history.h"
 #include "app/view/host.h"
 #include "app/view/lecture.h"
 #include "app/view/messages.h"
 #include "app/view/mouse_tools.h"
 #include "app/view/panel_visibility.h"
 #include "app/view/playlist.h"
-#include "app/plots/plots.h"
 #include "app/view/script_log.h"
 #include "app/view/session.h"
 #include "app/view/timeline.h"
@@ -174,12 +174,12 @@ class Gui {
   std::size_t at_ = 0;                           // of the scene in the playlist
   MessageNote message_;
   std::function<void()> delayed_;  // action after the question about unsaved changes; empty: none
-  std::string title_;              // title of the window; empty: name of the program
-  std::uint64_t drawn_views_ = 0;  // Session::views() at the last picture
-  bool told_gallery_ = false;      // the script log has the gallery as open
-  float text_size_ = 0.0f;         // size of the loaded fonts, pixels; 0: none
-  float scale_ = 1.0f;             // pixels per window unit
-  Area area_;                      // area of the viewport
+  std::optional<std::string> title_;              // of the window; absent: name of the program
+  std::uint64_t drawn_views_ = 0;                 // Session::views() at the last picture
+  bool told_gallery_ = false;                     // the script log has the gallery as open
+  float text_size_ = 0.0f;                        // size of the loaded fonts, pixels; 0: none
+  float scale_ = 1.0f;                            // pixels per window unit
+  Area area_;                                     // area of the viewport
   double wanted_scale_ = 1.0, text_scale_ = 1.0;  // of the slider, and of the texts
   float plot_heading_ = 0.0f;      // height of title and legend of the plot in lecture mode, pixels
   float bar_height_ = 0.0f;        // of the bar in lecture mode, pixels

@@ -6,13 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "app/plots/plot_colours.h"
+#include "app/plots/plots.h"
 #include "app/view/enum_list.h"
 #include "app/view/gui.h"
 #include "app/view/icons.h"
 #include "app/view/lesson.h"
 #include "app/view/panels.h"
-#include "app/plots/plot_colours.h"
-#include "app/plots/plots.h"
 #include "app/view/style.h"
 #include "engine/scene/enum_names.h"
 #include "engine/scene/text.h"

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <utility>
 
-#include "app/view/icons.h"
 #include "app/plots/plot_colours.h"
+#include "app/view/icons.h"
 #include "app/view/style.h"
 #include "render/layers/fonts.h"
 

@@ -215,10 +215,10 @@ static void check_order(const std::vector<Key>& keys, const char* list, const ch
                         const toml::table& root, const std::string& file) {
   for (std::size_t k = 1; k < keys.size(); ++k) {
     if (keys[k].time > keys[k - 1].time) continue;
-    throw UserError(place_of(root, list, file),
-                    time + number_text(keys[k].time) + " comes after " +
-                        number_text(keys[k - 1].time),
-                    "give each time once, in order");
+    throw UserError(
+        place_of(root, list, file),
+        time + number_text(keys[k].time) + " comes after " + number_text(keys[k - 1].time),
+        "give each time once, in order");
   }
 }
 

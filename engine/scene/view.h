@@ -67,7 +67,7 @@ struct CameraKey {
   std::optional<double> elevation = {};  ///< of spheres, degrees; absent: as View::elevation
 };
 
-/// A key of the pace of films. Between two keys the factor is linear in simulation time.
+/// A key of the pace of films. Between two keys the factor changes at a constant rate in the film.
 struct PaceKey {
   double time = 0.0;    ///< simulation time, >= 0
   double factor = 1.0;  ///< speed of the film over View::speed, > 0
@@ -116,6 +116,11 @@ enum class FilmPlot {
   DissipationProfile
 };
 
+/// Whether a plot is a profile.
+constexpr bool is_profile(FilmPlot plot) {
+  return plot >= FilmPlot::DensityProfile;
+}
+
 /// A part of the overlay: texts and scales on a picture.
 enum class OverlayPart {
   Title,
@@ -149,9 +154,9 @@ struct View {
   bool grid = false;               ///< lines over the box, spaced by the length of the scale bar
   bool overlay = true;             ///< time, title, captions, colour bar, scale bar
   std::vector<OverlayPart> overlay_hides = {};  ///< parts that the overlay does not have
-  std::vector<FilmPlot> plots = {};  ///< beside the gas in films, at most kMostPlots
-  std::optional<double> trails;    ///< duration of the particles' trails, > 0; absent: none
-  std::optional<double> card;  ///< seconds of the title card at a film's start, > 0; absent: none
+  std::vector<FilmPlot> plots = {};             ///< beside the gas in films, at most kMostPlots
+  std::optional<double> trails;  ///< duration of the particles' trails, > 0; absent: none
+  std::optional<double> card;    ///< seconds of the title card at a film's start, > 0; absent: none
   /// Direction to the viewer of spheres, in degrees: 0, 0 is along z, from the front; azimuth turns
   /// about the y axis towards x, elevation raises the viewer towards y.
   double azimuth = 30.0, elevation = 20.0;
@@ -161,10 +166,10 @@ struct View {
   /// Of the heatmap of spheres, drawn as a volume: extinction coefficient at the end of its colour
   /// range, 1/a; 0: no volume. With a volume there is no slice unless `slices` has it.
   double volume = 0.0;
-  Lecture lecture = {};           ///< parts of the window in lecture mode
-  std::vector<Caption> captions;  ///< in any order; several at one time are below each other
+  Lecture lecture = {};            ///< parts of the window in lecture mode
+  std::vector<Caption> captions;   ///< in any order; several at one time are below each other
   std::vector<PaceKey> pace = {};  ///< in order of time; empty: the factor is 1
-  std::vector<CameraKey> camera;  ///< in order of time; empty: always the whole box
+  std::vector<CameraKey> camera;   ///< in order of time; empty: always the whole box
 
   /// Replaces colours and fields of spins: the colour by the speed, the heatmap by none. Returns
   /// whether there were any.

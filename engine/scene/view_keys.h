@@ -113,7 +113,9 @@ inline constexpr auto kViewKeys = key_table(
     "view render",
     {{"colour_by", "", "Quantity that colours the particles. Spin needs rough particles or walls."},
      {"field", "", "Field of the heatmap below the particles. Without a value there is none."},
-     {"window", "t", "Averaging time of the heatmap and the arrows."},
+     {"window", "t",
+      "Averaging time of the heatmap and the arrows. Profiles beside films have windows of an "
+      "eighth of it."},
      {"estimator", "", "Estimator of the heatmap and the arrows, as in `measure`."},
      {"interval", "t",
       "Time between snapshots. Its range follows the `window`. The values shown are for the "

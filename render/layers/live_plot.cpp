@@ -181,8 +181,7 @@ std::vector<LegendEntry> legend_of(const LivePlot& plot, float width, const Plot
   ImVec2 at(0.0f, 0.0f);
   for (const Curve& curve : plot.curves) {
     if (curve.name.empty()) continue;
-    const float name =
-        style.font->CalcTextSizeA(style.text, FLT_MAX, 0.0f, curve.name.c_str()).x;
+    const float name = style.font->CalcTextSizeA(style.text, FLT_MAX, 0.0f, curve.name.c_str()).x;
     const float right = at.x + unit + name;
     if (at.x > 0.0f && right > width) at = ImVec2(0.0f, at.y + line);
     entries.push_back({&curve, at, ImVec2(at.x + unit + name, at.y + line)});
@@ -214,6 +213,7 @@ void draw_axes_and_curves(ImDrawList& list, const LivePlot& plot, ImVec2 low, Im
   const auto [x, y] = scales_of(plot);
   const PlotFrame frame{ImVec2(low.x + 3.0f * unit, low.y + 0.4f * unit),
                         ImVec2(high.x - 0.5f * unit, high.y - 2.1f * unit), x, y};
+  if (frame.low.x >= frame.high.x || frame.low.y >= frame.high.y) return;
   draw_axes(list, frame, plot, style);
   list.PushClipRect(frame.low, ImVec2(frame.high.x, frame.high.y + 1.0f), true);
   for (const Curve& curve : plot.curves) {

@@ -76,7 +76,7 @@ std::vector<LegendEntry> legend_of(const LivePlot& plot, float width, const Plot
 /// Draws an entry of the legend with its upper left corner at `corner`.
 void draw_entry(ImDrawList& list, const LegendEntry& entry, ImVec2 corner, const PlotStyle& style);
 
-/// Draws the axes and curves of a plot between two corners of a picture.
+/// Draws the axes and curves of a plot between two corners of a picture, if they have room.
 void draw_axes_and_curves(ImDrawList& list, const LivePlot& plot, ImVec2 low, ImVec2 high,
                           const PlotStyle& style);
 

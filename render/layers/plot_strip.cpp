@@ -61,7 +61,7 @@ Image PlotStrip::draw(const std::vector<std::optional<LivePlot>>& plots,
                         .line = packed(mix(theme.background, theme.faint_text, 0.35))};
   const auto width = static_cast<float>(size.width), height = static_cast<float>(size.height);
   const auto count = static_cast<float>(plots.size());
-  const bool column = height * count > width;
+  const bool column = height > width;
   // In a column plots are at most as high as wide, around the middle.
   const float tall = std::min((height - edge) / count, width);
   const float top = column ? std::round(0.5f * (height - edge - count * tall)) : 0.0f;

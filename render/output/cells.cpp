@@ -47,8 +47,8 @@ Image joined_cells(Size whole, std::vector<Image> cells) {
   if (count == 1) return std::move(cells.front());
   std::vector<PlacedPicture> parts;
   for (int number = 0; number < count; ++number) {
-    parts.push_back({picture_cell(whole, number, count),
-                     std::move(cells[static_cast<std::size_t>(number)])});
+    parts.push_back(
+        {picture_cell(whole, number, count), std::move(cells[static_cast<std::size_t>(number)])});
   }
   return joined(whole, parts);
 }

@@ -26,7 +26,8 @@ std::string state_hash(const Shell& shell, const std::string& setting) {
   return nlohmann::json::parse(run.out).at("state_hash");
 }
 
-// About 150 frames of three gases whose averages, trails and plots reach beyond the parts of the film.
+// About 150 frames of three gases whose averages, trails and plots reach beyond the parts of the
+// film.
 const std::string kComparison =
     "clatter render scene.toml --compare particles.restitution=1 --compare walls.left.stroke=0.4 "
     "--size 240x90 --fps 10 --quiet --speed 1 --to 9 ";
@@ -95,8 +96,9 @@ TEST_CASE("Compare films: disks and spheres are beside each other in a film") {
 
 TEST_CASE("Compare films: parts from checkpoints, and a resumed film, are the film") {
   const Shell shell;
-  write_film_scene(shell, ", plots = [\"temperature\", \"velocities\", \"density_profile\"], "
-                          "pace = [{ time = 2.0, factor = 1.0 }, { time = 3.0, factor = 0.5 }]");
+  write_film_scene(shell,
+                   ", plots = [\"temperature\", \"velocities\", \"density_profile\"], "
+                   "pace = [{ time = 2.0, factor = 1.0 }, { time = 3.0, factor = 0.5 }]");
   REQUIRE(shell.run(kComparison + "--out whole && " + kComparison + "--out whole.mkv").code == 0);
   for (const std::string part : {"--frames 0:37 --checkpoint c", "--frames 37: --resume c"}) {
     CAPTURE(part);

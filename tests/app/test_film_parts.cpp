@@ -18,7 +18,8 @@ const std::string kFilm =
 
 void write_scene(const Shell& shell) {
   write_film_scene(shell,
-                   ", plots = [\"temperature\", \"density_profile\"], arrows = \"velocity\", camera = [{ time = 5.0 }, { time = 9.0, follow = 3, "
+                   ", plots = [\"temperature\", \"density_profile\"], arrows = \"velocity\", "
+                   "camera = [{ time = 5.0 }, { time = 9.0, follow = 3, "
                    "width = 8.0 }]",
                    "[[change]]\ntime = 4.0\nset = { \"walls.left.stroke\" = 1.0 }\n");
 }

@@ -2,8 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -75,6 +78,7 @@ void check_same(const std::vector<LivePlot>& plots, const std::vector<LivePlot>&
       }
       CHECK(difference <= rounding * most);
       CHECK(curve.errors == other.errors);
+      CHECK(plots[k].span == others[k].span);
     }
   }
 }
@@ -98,7 +102,8 @@ struct RecordedRun {
 
  private:
   void record(const std::string& saved) {
-    recorder = std::make_unique<PlotRecorder<2>>(run, scene.view, kSpeed, saved);
+    const FilmPlots film{scene.view.plots, scene.measure.profile_axis, kSpeed};
+    recorder = std::make_unique<PlotRecorder<2>>(run, film, saved);
     run.on_change = [this](Simulation<2>& next) { recorder->follow(next); };
   }
 };
@@ -141,18 +146,47 @@ TEST_CASE("Film plots: they do not change the run, and continue from a checkpoin
     CAPTURE(time);
     begun.until(time);
     RecordedRun resumed(scene, begun.run.simulation().save(), begun.recorder->save());
+    check_same(resumed.plots(), begun.plots(), 0.0);
     resumed.until(8.0);
     check_same(resumed.plots(), whole.plots(), 0.0);
   }
 }
 
-TEST_CASE("Film plots: plots of another view are refused") {
+TEST_CASE("Film plots: under other laws, or along another axis, the samples start anew") {
   Scene scene = changing_gas();
+  scene.changes.clear();
   RecordedRun begun(scene);
-  begun.until(2.0);
+  begun.until(4.0);
+  const auto check_restarts = [&](const Scene& other) {
+    RecordedRun resumed(other, begun.run.simulation().save(), begun.recorder->save());
+    CHECK(resumed.recorder->gas().history->samples().empty());
+    resumed.until(6.05);
+    CHECK(resumed.recorder->gas().history->samples().size() == 10);
+    CHECK(resumed.plots().size() == other.view.plots.size());
+  };
+  Scene other = scene;
+  other.particles.roughness.friction = 0.1;
+  check_restarts(other);
+  other = scene;
+  other.measure.profile_axis = Axis::X;
+  check_restarts(other);
+  other = scene;
+  other.view.plots = {FilmPlot::Temperature};
+  check_restarts(other);
+}
+
+TEST_CASE("Film plots: the number of samples of a long run is bounded") {
+  Scene scene = changing_gas();
+  scene.changes.clear();
+  scene.gravity.reset();
   scene.view.plots = {FilmPlot::Temperature};
-  CHECK_THROWS_AS(RecordedRun(scene, begun.run.simulation().save(), begun.recorder->save()),
-                  UserError);
+  RecordedRun film(scene);
+  film.until(600.0);
+  const auto& samples = film.recorder->gas().history->samples();
+  CHECK(samples.size() > 500);
+  CHECK(samples.size() <= 1200);
+  CHECK(samples.back().time > 595.0);
+  for (std::size_t k = 1; k < samples.size(); ++k) CHECK(samples[k].time > samples[k - 1].time);
 }
 
 TEST_CASE("Film plots: a name selects its quantity") {
@@ -166,10 +200,9 @@ TEST_CASE("Film plots: a name selects its quantity") {
     CHECK(plot.x_label == "y in a");
     names.push_back(plot.curves.front().name);
   }
-  CHECK(names ==
-        std::vector<std::string>{"density ρ", "temperature T", "stress σ", "heat flux q"});
-  const auto dissipation = film_plot(FilmPlot::DissipationProfile, {film.recorder->gas()},
-                                     kDarkTheme);
+  CHECK(names == std::vector<std::string>{"density ρ", "temperature T", "stress σ", "heat flux q"});
+  const auto dissipation =
+      film_plot(FilmPlot::DissipationProfile, {film.recorder->gas()}, kDarkTheme);
   REQUIRE(dissipation);
   for (const Vec2& point : dissipation->curves.front().points) CHECK(point.y() <= 0.0);
   // The title, the unit and the number of curves of the others.
@@ -197,8 +230,8 @@ TEST_CASE("Film plots: the strip is beside a wide picture and below a high one")
     CHECK(plots.top == (beside ? 0 : gases.size.height));
     CHECK(plots.left + plots.size.width == whole.width);
     CHECK(plots.top + plots.size.height == whole.height);
-    const double share = beside ? 1.0 * plots.size.width / whole.width
-                                : 1.0 * plots.size.height / whole.height;
+    const double share =
+        beside ? 1.0 * plots.size.width / whole.width : 1.0 * plots.size.height / whole.height;
     CHECK(share == doctest::Approx(0.3).epsilon(0.05));
   };
   check({1280, 720});
@@ -210,7 +243,8 @@ TEST_CASE("Film plots: curves are drawn where their axes say") {
   constexpr Colour kMarked = {0xff, 0x00, 0x00};
   // A line at 2 on an axis from 0 to 4.2, which has 5 % above the largest value.
   LivePlot plot{"Title", "x", false, false, {}, "unit"};
-  plot.curves = {{"", kMarked, {{0.0, 2.0}, {1.0, 2.0}}}, {"", {0, 0, 0xff}, {{0.0, 0.0}, {1.0, 4.0}}}};
+  plot.curves = {{"", kMarked, {{0.0, 2.0}, {1.0, 2.0}}},
+                 {"", {0, 0, 0xff}, {{0.0, 0.0}, {1.0, 4.0}}}};
   const auto context = open_context(Backend::Osmesa);
   for (const bool transparent : {false, true}) {
     CAPTURE(transparent);
@@ -237,6 +271,62 @@ TEST_CASE("Film plots: curves are drawn where their axes say") {
   }
 }
 
+TEST_CASE("Film plots: each has its place in a strip, also below a high picture") {
+  constexpr std::array<Colour, 4> kColours = {
+      {{0xff, 0x00, 0x00}, {0x00, 0xff, 0x00}, {0x00, 0x00, 0xff}, {0xff, 0xff, 0x00}}};
+  const auto context = open_context(Backend::Osmesa);
+  for (const Size size : {Size{384, 720}, Size{720, 384}}) {
+    CAPTURE(size.width);
+    PlotStrip strip(context->gl(), size, {1280, 720}, false);
+    for (std::size_t count = 1; count <= 4; ++count) {
+      CAPTURE(count);
+      std::vector<std::optional<LivePlot>> plots;
+      for (std::size_t k = 0; k < count; ++k) {
+        LivePlot plot{"Title", "x", false, false, {}, "unit"};
+        plot.curves = {{"", kColours[k], {{0.0, 2.0}, {0.9, 2.0}, {1.0, 4.0}}}};
+        plots.push_back(plot);
+      }
+      const Image image = strip.draw(plots, kDarkTheme);
+      for (std::size_t k = 0; k < count; ++k) {
+        CAPTURE(k);
+        // The rectangle of the curve along the strip, in places of a plot.
+        double low = 1e9, high = 0.0;
+        int marked = 0;
+        for (int y = 0; y < size.height; ++y) {
+          for (int x = 0; x < size.width; ++x) {
+            if (difference(pixel(image, x, y), kColours[k]) > 0x40) continue;
+            const bool column = size.height > size.width;
+            const double place = column ? 1.0 * y / size.height : 1.0 * x / size.width;
+            low = std::min(low, place * static_cast<double>(count));
+            high = std::max(high, place * static_cast<double>(count));
+            ++marked;
+          }
+        }
+        CHECK(marked > 30);
+        CHECK(low >= static_cast<double>(k));
+        CHECK(high <= static_cast<double>(k + 1));
+      }
+    }
+  }
+}
+
+TEST_CASE("Film plots: compared gases have one axis, that of the first scene") {
+  const Shell shell;
+  const std::string scene =
+      "box.size = [12.0, 12.0]\nparticles = { count = 50, restitution = 0.9 }\n"
+      "view = { window = 1.0, plots = [\"density_profile\"] }\n";
+  shell.write("a.toml", scene);
+  shell.write("b.toml", scene + "measure.profile_axis = \"y\"\n");
+  const std::string line = "clatter render a.toml --quiet --size 300x100 --to 3 --out ";
+  REQUIRE(shell.run(line + "one.png --compare measure.profile_axis=y").code == 0);
+  REQUIRE(shell.run(line + "two.png --compare measure.profile_axis=x").code == 0);
+  const auto strip = [&](const std::string& file) {
+    return shell.run("ffmpeg -v error -i " + file + " -vf format=rgba,crop=90:100:210:0 -f md5 -")
+        .out;
+  };
+  CHECK(strip("one.png") == strip("two.png"));
+}
+
 TEST_CASE("Film plots: a film has them, and a scene has at most four") {
   const Shell shell;
   write_film_scene(shell, ", plots = [\"temperature\", \"energy\"]");
@@ -249,13 +339,14 @@ TEST_CASE("Film plots: a film has them, and a scene has at most four") {
   CHECK(png_text(shell.path("with.png"), "State hash") ==
         png_text(shell.path("without.png"), "State hash"));
   const auto colours = [&](const std::string& file, const std::string& part) {
-    return shell.run("ffmpeg -v error -i " + file + " -vf format=rgba,crop=" + part +
-                     " -f md5 -").out;
+    return shell.run("ffmpeg -v error -i " + file + " -vf format=rgba,crop=" + part + " -f md5 -")
+        .out;
   };
   CHECK(colours("with.png", "60:100:140:0") != colours("with.png", "60:100:80:0"));
   check_refused(shell,
-                line + "--out no.png --set 'view.plots=[\"temperature\", \"energy\", "
-                       "\"velocities\", \"density_profile\", \"stress_profile\"]'",
+                line +
+                    "--out no.png --set 'view.plots=[\"temperature\", \"energy\", "
+                    "\"velocities\", \"density_profile\", \"stress_profile\"]'",
                 {"view.plots", "at most 4 plots"});
   check_refused(shell, line + "--out no.png --set 'view.plots=[\"density\"]'",
                 {"view.plots", "density_profile"});

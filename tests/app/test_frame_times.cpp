@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "app/runs/frame_times.h"
@@ -14,16 +16,22 @@ namespace {
 
 // Slow motion around t = 12, and a faster end.
 FrameTimes paced(double from) {
-  return {from, 2.0, 25.0, 800, {{10.0, 1.0}, {11.5, 0.05}, {12.5, 0.05}, {14.0, 1.0}, {15.0, 3.0}}};
+  return {
+      from, 2.0, 25.0, 800, {{10.0, 1.0}, {11.5, 0.05}, {12.5, 0.05}, {14.0, 1.0}, {15.0, 3.0}}};
 }
 
 // The factor of paced(), by another way.
 double factor_at(double time) {
   if (time < 10.0) return 1.0;
-  if (time < 11.5) return 1.0 - 0.95 * (time - 10.0) / 1.5;
+  // Between two keys the square is linear.
+  const auto between = [&](double from, double to, double low, double high) {
+    const double share = (time - from) / (to - from);
+    return std::sqrt(low * low + share * (high * high - low * low));
+  };
+  if (time < 11.5) return between(10.0, 11.5, 1.0, 0.05);
   if (time < 12.5) return 0.05;
-  if (time < 14.0) return 0.05 + 0.95 * (time - 12.5) / 1.5;
-  return std::min(1.0 + 2.0 * (time - 14.0), 3.0);
+  if (time < 14.0) return between(12.5, 14.0, 0.05, 1.0);
+  return time < 15.0 ? between(14.0, 15.0, 1.0, 3.0) : 3.0;
 }
 
 // Seconds of film between two times by the midpoint rule, whose relative error is below 1e-6 here.
@@ -77,6 +85,15 @@ TEST_CASE("Frame times: each frame is a frame's length after the one before") {
   }
 }
 
+TEST_CASE("Frame times: between two keys the speed changes at a constant rate in the film") {
+  const FrameTimes times{0.0, 2.0, 25.0, 400, {{4.0, 1.0}, {10.0, 0.2}}};
+  const double begin = times.seconds_at(4.0), end = times.seconds_at(10.0);
+  for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    const double time = times.time_after(begin + share * (end - begin));
+    CHECK(times.speed_at(time) == doctest::Approx(2.0 * (1.0 - 0.8 * share)).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("Frame times: the speed follows the pace") {
   const FrameTimes times = paced(0.0);
   for (const double time : {0.0, 5.0, 10.0, 10.6, 11.5, 12.0, 13.3, 14.2, 15.0, 99.0}) {
@@ -84,6 +101,26 @@ TEST_CASE("Frame times: the speed follows the pace") {
     CHECK(times.speed_at(time) == doctest::Approx(2.0 * factor_at(time)).epsilon(1e-12));
   }
   CHECK(times.largest_speed() == 6.0);
+}
+
+TEST_CASE("Frame times: a constant factor of 0.5 is half the speed, for pictures and sound") {
+  const Shell shell;
+  write_film_scene(shell, ", captions = [{ text = \"fades\", from = 1.0, to = 1.6 }]");
+  const auto film = [&](const std::string& flags) {
+    const Outcome outcome = shell.run(
+        "rm -rf frames; clatter render scene.toml --quiet --size 160x120 --fps 10 --from 1 --to 2 "
+        "--shutter 0.5 --sound --out frames " +
+        flags);
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    return shell
+        .run("md5sum frames/sound.wav; ffmpeg -v error -i frames/frame_%06d.png -f framemd5 -")
+        .out;
+  };
+  const std::string half = film("--speed 0.5");
+  CHECK(std::ranges::count(half, '\n') > 20);
+  CHECK(film("--speed 1 --set 'view.pace=[{time=0.0,factor=0.5}]'") == half);
+  CHECK(film("--speed 1") != half);
 }
 
 TEST_CASE("Frame times: a film has the frames of its pace, and refuses times out of order") {
@@ -96,14 +133,13 @@ TEST_CASE("Frame times: a film has the frames of its pace, and refuses times out
               .code == 0);
   CHECK(shell.run("ls frames | wc -l").out == "30\n");
   const auto time_of = [&](const std::string& frame) {
-    return std::stod(*png_text(shell.path("frames/frame_0000" + frame + ".png"),
-                               "Simulation time"));
+    return std::stod(
+        *png_text(shell.path("frames/frame_0000" + frame + ".png"), "Simulation time"));
   };
   CHECK(time_of("05") == doctest::Approx(0.5).epsilon(1e-5));
   CHECK(time_of("12") == doctest::Approx(1.1).epsilon(1e-5));
   CHECK(time_of("29") == doctest::Approx(1.95).epsilon(1e-5));
-  check_refused(shell,
-                line + "'view.pace=[{time=3.0,factor=1.0},{time=2.0,factor=0.5}]' --to 2",
+  check_refused(shell, line + "'view.pace=[{time=3.0,factor=1.0},{time=2.0,factor=0.5}]' --to 2",
                 {"view.pace", "the time 2 comes after 3"});
   check_refused(shell, line + "'view.pace=[{time=3.0,factor=0.0}]' --to 2", {"view.pace.factor"});
 }

@@ -10,10 +10,10 @@
 #include <cmath>
 #include <memory>
 
+#include "app/plots/plots.h"
 #include "app/view/fading_ink.h"
 #include "app/view/lecture.h"
 #include "app/view/playlist.h"
-#include "app/plots/plots.h"
 #include "app/view/stopwatch.h"
 #include "engine/error.h"
 #include "engine/scene/scene_file.h"

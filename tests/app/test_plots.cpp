@@ -9,8 +9,8 @@
 #include <numbers>
 #include <utility>
 
-#include "app/results/theory_json.h"
 #include "app/plots/plots.h"
+#include "app/results/theory_json.h"
 #include "app/view/table_plots.h"
 #include "engine/error.h"
 #include "engine/publish/watched_run.h"

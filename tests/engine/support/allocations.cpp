@@ -34,8 +34,8 @@ void* operator new(std::size_t bytes) {
 }
 
 // The usable size of aligned memory includes the address space between its end and the next
-// alignment, up to 2 MB by chance, which never becomes resident. So the requested bytes count. Their
-// number lies before the memory.
+// alignment, up to 2 MB by chance, which never becomes resident. So the requested bytes count.
+// Their number lies before the memory.
 void* operator new(std::size_t bytes, std::align_val_t alignment) {
   const auto offset = static_cast<std::size_t>(alignment);
   void* block = nullptr;

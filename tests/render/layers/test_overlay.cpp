@@ -377,10 +377,10 @@ TEST_CASE("Overlay: a view may hide each part, and the others stay at their plac
   Snapshot snapshot = driven_box();
   View view = view_with_field();
   view.captions = {{"Over the gas", {}, {}}};
-  const std::vector<OverlayPart> all = {OverlayPart::Title,       OverlayPart::Caption,
-                                        OverlayPart::Time,        OverlayPart::Temperature,
-                                        OverlayPart::Collisions,  OverlayPart::ColourBars,
-                                        OverlayPart::ScaleBar,    OverlayPart::Captions};
+  const std::vector<OverlayPart> all = {OverlayPart::Title,      OverlayPart::Caption,
+                                        OverlayPart::Time,       OverlayPart::Temperature,
+                                        OverlayPart::Collisions, OverlayPart::ColourBars,
+                                        OverlayPart::ScaleBar,   OverlayPart::Captions};
   const Camera camera = renderer.fit(snapshot, kSize, view, kText);
   const auto drawn = [&](const View& shown) {
     return draw(renderer, context->gl(), snapshot, camera, kSize, shown);
@@ -411,7 +411,8 @@ TEST_CASE("Overlay: a view may hide each part, and the others stay at their plac
     }
     return area;
   };
-  const Area title = changed(only(OverlayPart::Title)), caption = changed(only(OverlayPart::Caption));
+  const Area title = changed(only(OverlayPart::Title)),
+             caption = changed(only(OverlayPart::Caption));
   CHECK(title.right < 0.4);
   CHECK(title.bottom < 0.2);
   CHECK(caption.right < 0.4);
