@@ -85,7 +85,7 @@ Legend AutoRanges::Followed::legend(const Label& shown, const ColourRange& range
   }
   const bool locked = range.kind == ColourRange::Locked;
   const double last = end(shown, extent, locked && lockable);
-  const bool held = fixed > 0.0 ? locked : followed.held();
+  const bool held = fixed > 0.0 || followed.held();
   return {shown, scale_to(last, shown.sign, map), held ? "locked" : "auto"};
 }
 

@@ -95,7 +95,9 @@ TEST_CASE("Automatic ranges: fixed ones stop following, but given ones still hol
   CHECK(field_colour(renderer, context->gl(), view, 0.5, true, ranges) == top);
   // Each range has its own end. Without an end it is 1.
   view.field_range = {};
+  CHECK(AutoRanges().legends(snapshot, view).field->range == "auto");
   ranges.fix({.disks = 8.0, .field = 2.0, .arrows = 8.0});
+  CHECK(ranges.legends(snapshot, view).field->range == "locked");
   CHECK(field_colour(renderer, context->gl(), view, 1.0, true, ranges) == middle);
   ranges.fix({});
   CHECK(field_colour(renderer, context->gl(), view, 0.5, true, ranges) == middle);
