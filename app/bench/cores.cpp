@@ -84,12 +84,37 @@ std::vector<CoresRate> measure_gas(const Scene& scene, int most) {
   }
 }
 
+struct CoresCell {
+  int count;
+  double fraction;  // that the particles fill
+};
+
+std::vector<CoresCell> cells_of(const CoresTable& table) {
+  if (table.area_fraction) {
+    if (!has_room(table.count, *table.area_fraction, 2)) {
+      throw UserError({"--area-fraction", 0, 0},
+                      "no square box holds this number of disks at this fraction",
+                      "choose a smaller fraction, or another --count");
+    }
+    return {{table.count, *table.area_fraction}};
+  }
+  std::vector<CoresCell> cells;
+  for (const int count : {100'000, 1'000'000, 10'000'000}) {
+    if (table.count > 0 && count > table.count) continue;
+    for (const double phi : {0.1, 0.3, table.dimension == 2 ? 0.5 : 0.45, 0.7}) {
+      if (has_room(count, phi, table.dimension)) cells.push_back({count, phi});
+    }
+  }
+  return cells;
+}
+
 }  // namespace
 
 int bench_cores(const std::string& json, const std::string& plot_file, const CoresTable& table) {
   if (!plot_file.empty()) require_writable_file(plot_file, "--plot");
   const int most = table.threads > 0 ? table.threads : processors();
   const bool disks = table.dimension == 2;
+  const std::vector<CoresCell> cells = cells_of(table);
   std::fprintf(stderr, "elastic %s, periodic box; Mcoll/s: 10^6 pair collisions per second\n",
                disks ? "disks" : "spheres");
   std::printf("%10s %6s %8s %9s %9s %6s %10s %7s\n", "N", "phi", "threads", "Mcoll/s", "of whole",
@@ -102,32 +127,28 @@ int bench_cores(const std::string& json, const std::string& plot_file, const Cor
             .x_name = "threads",
             .y_name = "million collisions per second",
             .panels = {}};
-  for (const int count : {100'000, 1'000'000, 10'000'000}) {
-    if (table.count > 0 && count > table.count) continue;
-    for (const double phi : {0.1, 0.3, disks ? 0.5 : 0.45, 0.7}) {
-      if (!has_room(count, phi, table.dimension)) continue;
-      const Scene scene = elastic_gas(count, phi, table.dimension);
-      const std::vector<CoresRate> rates = with_dimension(
-          table.dimension, [&](auto dimension) { return measure_gas<dimension>(scene, most); });
-      plot.panels.push_back({fmt::format("N = {}, phi = {:g}", count, phi), {}});
-      for (const CoresRate& rate : rates) {
-        const double of_whole = rate.rate / rates.front().rate;
-        const bool whole = rate.threads == 0;
-        std::printf("%10d %6.3f %8s %9.3f %9.2f %6.2f %10.2f %7.3f\n", count, phi,
-                    whole ? "whole" : std::to_string(rate.threads).c_str(), rate.rate, of_whole,
-                    rate.busy, rate.redundant, rate.redone);
-        std::fflush(stdout);
-        rows.push_back({{"count", count},
-                        {disks ? "area_fraction" : "volume_fraction", phi},
-                        {"threads", rate.threads},
-                        {"million_collisions_per_second", rate.rate},
-                        {"of_whole", of_whole},
-                        {"busy", rate.busy},
-                        {"redundant", rate.redundant},
-                        {"redone", rate.redone}});
-        plot.panels.back().points.push_back({whole ? 0.5 : static_cast<double>(rate.threads),
-                                             rate.rate, fmt::format("{:.2f}", rate.rate), false});
-      }
+  for (const auto [count, phi] : cells) {
+    const Scene scene = elastic_gas(count, phi, table.dimension);
+    const std::vector<CoresRate> rates = with_dimension(
+        table.dimension, [&](auto dimension) { return measure_gas<dimension>(scene, most); });
+    plot.panels.push_back({fmt::format("N = {}, phi = {:g}", count, phi), {}});
+    for (const CoresRate& rate : rates) {
+      const double of_whole = rate.rate / rates.front().rate;
+      const bool whole = rate.threads == 0;
+      std::printf("%10d %6.3f %8s %9.3f %9.2f %6.2f %10.2f %7.3f\n", count, phi,
+                  whole ? "whole" : std::to_string(rate.threads).c_str(), rate.rate, of_whole,
+                  rate.busy, rate.redundant, rate.redone);
+      std::fflush(stdout);
+      rows.push_back({{"count", count},
+                      {disks ? "area_fraction" : "volume_fraction", phi},
+                      {"threads", rate.threads},
+                      {"million_collisions_per_second", rate.rate},
+                      {"of_whole", of_whole},
+                      {"busy", rate.busy},
+                      {"redundant", rate.redundant},
+                      {"redone", rate.redone}});
+      plot.panels.back().points.push_back({whole ? 0.5 : static_cast<double>(rate.threads),
+                                           rate.rate, fmt::format("{:.2f}", rate.rate), false});
     }
   }
   if (!json.empty()) write_file(json, rows.dump(1) + "\n");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace clatter {
@@ -7,13 +8,15 @@ namespace clatter {
 /// The cells of the table of cores.
 struct CoresTable {
   int dimension = 2;
-  int count = 0;    ///< largest number of particles; 0: 10^7
+  int count = 0;  ///< largest number of particles, or that of the only cell; 0: 10^7
+  std::optional<double> area_fraction = {};  ///< of disks in the only cell; absent: all cells
   int threads = 0;  ///< largest number of threads; 0: the number of processors
 };
 
 /// Prints the collision rate of elastic particles in a periodic box, as a whole and in tiles on 1,
 /// 2, 4, ... threads. Writes the table to `json` and a plot to `plot`, unless these are empty.
-/// Throws RunError if a state hash depends on the threads. Returns the exit code.
+/// Throws UserError if no box holds the only cell, and RunError if a state hash depends on the
+/// threads. Returns the exit code.
 int bench_cores(const std::string& json, const std::string& plot, const CoresTable& table);
 
 }  // namespace clatter

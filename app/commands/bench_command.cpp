@@ -148,8 +148,15 @@ void add_cores_table(CLI::App& bench, int& exit_code) {
   CLI::App* table = bench.add_subcommand(
       "cores", "Collisions per second of a large gas in tiles, by number of threads.");
   add_json_flag(*table, options->json);
-  add_count_flag(*table, options->table.count, "Largest number of particles. Default: 10000000.");
+  CLI::Option* count = add_count_flag(*table, options->table.count,
+                                      "Largest number of particles. Default: 10000000.");
   add_dimension_flag(*table, options->table.dimension);
+  table
+      ->add_option("--area-fraction", options->table.area_fraction,
+                   "The table has one cell: --count disks at this area fraction.")
+      ->check(number_between(1e-6, 0.9))
+      ->needs(count)
+      ->excludes(table->get_option("--dimension"));
   table
       ->add_option("--threads", options->table.threads,
                    "Largest number of threads. Default: the number of processors.")

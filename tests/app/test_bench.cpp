@@ -437,6 +437,32 @@ TEST_CASE("Bench: a cell of the engine's table for spheres, with its memory") {
   }
 }
 
+TEST_CASE("Bench: a cell of the table of cores has the gas as a whole and in tiles") {
+  const Shell shell;
+  const Outcome outcome = shell.run(
+      "clatter bench cores --count 100000 --area-fraction 0.25 --threads 3 --json cores.json");
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const json rows = json::parse(shell.read("cores.json"));
+  std::vector<int> threads;
+  for (const json& row : rows) {
+    threads.push_back(row["threads"]);
+    CHECK(row["count"] == 100'000);
+    CHECK(row["area_fraction"] == 0.25);
+    const double rate = row["million_collisions_per_second"],
+                 whole = rows[0]["million_collisions_per_second"];
+    CHECK(rate > 0.0);
+    CHECK(row["of_whole"].get<double>() == doctest::Approx(rate / whole).epsilon(1e-6));
+    const bool tiles = row["threads"] > 0;
+    CHECK((row["redundant"] > 0.0) == tiles);
+    CHECK(row["redone"] < 0.5);
+    CHECK(row["busy"] <= 1.1);
+  }
+  CHECK(threads == std::vector<int>{0, 1, 2, 3});
+  check_refused(shell, "clatter bench cores --count 2 --area-fraction 0.9",
+                {"--area-fraction", "no square box"});
+}
+
 TEST_CASE("Bench: a fraction that no box holds is refused under the flag that gave it") {
   const Shell shell;
   for (const std::string flag : {"--area-fraction 0.9", "--volume-fraction 0.74"}) {

@@ -212,6 +212,8 @@ TEST_CASE("Commands: every command explains its flags, and only those") {
       {"bench", {}},
       {"bench engine",
        {"--json", "--count", "--dimension", "--area-fraction", "--volume-fraction"}},
+      {"bench cores",
+       {"--json", "--count", "--dimension", "--area-fraction", "--threads", "--plot"}},
       {"bench growth", {"--json", "--count", "--plot"}},
       {"bench features", {"--json", "--count"}},
       {"bench fields", {"--json", "--duration"}},
@@ -246,7 +248,8 @@ TEST_CASE("Commands: a flag that a command does not use is refused") {
   for (const std::string line :
        {"check vibrated --threads 2", "check vibrated --progress none", "scenes --quiet",
         "bench fields --count 5", "bench engine --duration 5", "bench --duration 5",
-        "bench engine --area-fraction 0.3"}) {
+        "bench engine --area-fraction 0.3", "bench cores --area-fraction 0.3",
+        "bench cores --count 1000 --area-fraction 0.3 --dimension 3"}) {
     CAPTURE(line);
     const Outcome outcome = shell.run("clatter " + line);
     CHECK(outcome.code == 2);
