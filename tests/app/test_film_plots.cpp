@@ -325,6 +325,11 @@ TEST_CASE("Film plots: compared gases have one axis, that of the first scene") {
         .out;
   };
   CHECK(strip("one.png") == strip("two.png"));
+  REQUIRE(shell
+              .run(line + "three.png --set measure.profile_axis=y "
+                          "--compare measure.profile_axis=x")
+              .code == 0);
+  CHECK(strip("three.png") != strip("one.png"));
 }
 
 TEST_CASE("Film plots: a film has them, and a scene has at most four") {

@@ -120,7 +120,29 @@ TEST_CASE("Frame times: a constant factor of 0.5 is half the speed, for pictures
   const std::string half = film("--speed 0.5");
   CHECK(std::ranges::count(half, '\n') > 20);
   CHECK(film("--speed 1 --set 'view.pace=[{time=0.0,factor=0.5}]'") == half);
+  // A faster stretch that the film does not reach changes nothing.
+  CHECK(film("--speed 1 --set "
+             "'view.pace=[{time=0.0,factor=0.5},{time=9.0,factor=0.5},{time=10.0,factor=4.0}]'") ==
+        half);
   CHECK(film("--speed 1") != half);
+}
+
+TEST_CASE("Frame times: captions fade for half a second of film at its speed") {
+  const Shell shell;
+  write_film_scene(shell, ", captions = [{ text = \"fades\", from = 1.0 }]");
+  const auto picture = [&](const std::string& flags) {
+    REQUIRE(shell
+                .run("clatter render scene.toml --quiet --size 160x120 --from 1.2 --out a.png "
+                     "--overwrite " +
+                     flags)
+                .code == 0);
+    return shell.run("ffmpeg -v error -i a.png -f md5 -").out;
+  };
+  // At the speeds 0.1 and 0.2 the caption is complete after 0.05 and 0.1 time units.
+  const std::string complete = picture("--speed 0.1");
+  CHECK(picture("--speed 0.2") == complete);
+  CHECK(picture("--speed 10") != complete);
+  CHECK(picture("--speed 10 --set 'view.pace=[{time=0.0,factor=0.01}]'") == complete);
 }
 
 TEST_CASE("Frame times: a film has the frames of its pace, and refuses times out of order") {
