@@ -6,8 +6,8 @@
 #include <numbers>
 #include <optional>
 
-#include "app/results/theory_json.h"
 #include "app/plots/plot_colours.h"
+#include "app/results/theory_json.h"
 #include "engine/scene/text.h"
 #include "render/label.h"
 

@@ -8,71 +8,73 @@ namespace clatter {
 
 namespace {
 
-// A stretch of simulation time from `time` on, at whose begin the factor is `factor`. The factor
-// changes at a constant rate in the film, so that its square is linear in simulation time:
-// d(factor^2)/dt = 2 rate. Roots are exact to the last bit on all processors, logarithms are not.
-struct Stretch {
-  double time, factor, rate;
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
-  double factor_at(double t) const {
-    return rate == 0.0 ? factor : std::sqrt(factor * factor + 2.0 * rate * (t - time));
+// A stretch of simulation time, with the factors at its begin and at its end. The factor changes at
+// a constant rate in the film, so that its square is linear in simulation time. Square roots are
+// exact to the last bit on all processors, logarithms are not.
+struct Stretch {
+  double begin, end;
+  double factor, last_factor;
+
+  double factor_at(double time) const {
+    if (end == kNever) return factor;
+    const double share = std::clamp((time - begin) / (end - begin), 0.0, 1.0);
+    return std::sqrt((1.0 - share) * factor * factor + share * last_factor * last_factor);
   }
-  // Integral of 1/factor from `time` to `t`.
-  double integral(double t) const { return 2.0 * (t - time) / (factor + factor_at(t)); }
+  // Integral of 1/factor from the begin to a time.
+  double integral(double time) const { return 2.0 * (time - begin) / (factor + factor_at(time)); }
   // The time at which the integral has a value.
-  double time_at(double value) const { return time + value * (factor + 0.5 * rate * value); }
+  double time_at(double value) const {
+    if (end == kNever) return begin + factor * value;
+    const double squares = last_factor * last_factor - factor * factor;
+    return std::min(begin + value * (factor + 0.25 * squares / (end - begin) * value), end);
+  }
 };
 
 // The stretches from a time on. The factor is constant before the first key and after the last.
 std::vector<Stretch> stretches_from(double from, const std::vector<PaceKey>& pace) {
-  if (pace.empty()) return {{from, 1.0, 0.0}};
-  std::vector<Stretch> stretches = {{0.0, pace.front().factor, 0.0}};
-  for (std::size_t k = 0; k + 1 < pace.size(); ++k) {
-    const PaceKey &a = pace[k], &b = pace[k + 1];
-    const double squares = b.factor * b.factor - a.factor * a.factor;
-    stretches.push_back({a.time, a.factor, 0.5 * squares / (b.time - a.time)});
+  if (pace.empty()) return {{from, kNever, 1.0, 1.0}};
+  std::vector<Stretch> stretches;
+  PaceKey before{0.0, pace.front().factor};
+  for (const PaceKey& key : pace) {
+    if (key.time > from) {
+      const Stretch whole{before.time, key.time, before.factor, key.factor};
+      const double begin = std::max(from, before.time);
+      stretches.push_back({begin, key.time, whole.factor_at(begin), key.factor});
+    }
+    before = key;
   }
-  stretches.push_back({pace.back().time, pace.back().factor, 0.0});
-  // The last stretch that begins before `from` begins there.
-  auto first = std::ranges::upper_bound(stretches, from, {}, &Stretch::time);
-  first = std::max(first, stretches.begin() + 1) - 1;
-  *first = {from, first->factor_at(from), first->rate};
-  stretches.erase(stretches.begin(), first);
+  stretches.push_back({std::max(from, before.time), kNever, before.factor, before.factor});
   return stretches;
-}
-
-double end_of(const std::vector<Stretch>& stretches, std::size_t k) {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  return k + 1 < stretches.size() ? stretches[k + 1].time : kNever;
 }
 
 }  // namespace
 
 double FrameTimes::of(long frame) const {
-  return time_at(static_cast<double>(frame), speed / fps);
+  return time_at(static_cast<double>(frame) * (speed / fps));
 }
 
 double FrameTimes::time_after(double seconds) const {
-  return time_at(seconds, speed);
+  return time_at(seconds * speed);
 }
 
-double FrameTimes::time_at(double count, double length) const {
-  double left = count * length;  // integral of 1/factor still to come
-  if (pace.empty()) return from + left;
+double FrameTimes::time_at(double integral) const {
+  if (pace.empty()) return from + integral;
   const std::vector<Stretch> stretches = stretches_from(from, pace);
-  for (std::size_t k = 0;; ++k) {
-    const double end = end_of(stretches, k);
-    const double whole = std::isinf(end) ? end : stretches[k].integral(end);
-    if (left <= whole) return std::min(stretches[k].time_at(left), end);
-    left -= whole;
+  for (std::size_t k = 0; k + 1 < stretches.size(); ++k) {
+    const double whole = stretches[k].integral(stretches[k].end);
+    if (integral <= whole) return stretches[k].time_at(integral);
+    integral -= whole;
   }
+  return stretches.back().time_at(integral);
 }
 
 double FrameTimes::seconds_at(double time) const {
-  const std::vector<Stretch> stretches = stretches_from(from, pace);
   double sum = 0.0;
-  for (std::size_t k = 0; k < stretches.size() && (k == 0 || stretches[k].time < time); ++k) {
-    sum += stretches[k].integral(std::min(time, end_of(stretches, k)));
+  for (const Stretch& stretch : stretches_from(from, pace)) {
+    sum += stretch.integral(std::min(time, stretch.end));
+    if (time <= stretch.end) break;
   }
   return sum / speed;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "engine/scene/view.h"
@@ -30,7 +29,8 @@ struct FrameTimes {
   double largest_speed() const;
 
  private:
-  double time_at(double count, double length) const;
+  /// The time up to which the integral of 1/factor from `from` on has a value.
+  double time_at(double integral) const;
 };
 
 }  // namespace clatter

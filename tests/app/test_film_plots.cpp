@@ -152,7 +152,7 @@ TEST_CASE("Film plots: they do not change the run, and continue from a checkpoin
   }
 }
 
-TEST_CASE("Film plots: under other laws, or along another axis, the samples start anew") {
+TEST_CASE("Film plots: other laws or another axis restart the samples") {
   Scene scene = changing_gas();
   scene.changes.clear();
   RecordedRun begun(scene);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -92,6 +93,23 @@ TEST_CASE("Frame times: between two keys the speed changes at a constant rate in
     const double time = times.time_after(begin + share * (end - begin));
     CHECK(times.speed_at(time) == doctest::Approx(2.0 * (1.0 - 0.8 * share)).epsilon(1e-12));
   }
+}
+
+TEST_CASE("Frame times: the largest and the smallest factors give finite times in order") {
+  const FrameTimes times{0.0, 1.0, 1e3, 4000, {{1.0, 1e6}, {2.0, 1e-6}, {3.0, 1e-6}, {4.0, 1e6}}};
+  double before = 0.0;
+  for (const double time : {0.5, 1.0, 1.5, 2.0 - 1e-15, 2.0, 3.0, 3.0 + 1e-15, 4.0, 1e9}) {
+    CAPTURE(time);
+    const double seconds = times.seconds_at(time);
+    CHECK(std::isfinite(seconds));
+    CHECK(seconds >= before);
+    // A rounding error of the seconds counts as often as the speed says.
+    const double rounding =
+        4.0 * std::numeric_limits<double>::epsilon() * (seconds * times.speed_at(time) + time);
+    CHECK(std::fabs(times.time_after(seconds) - time) <= rounding);
+    before = seconds;
+  }
+  for (long frame = 1; frame < times.count; ++frame) CHECK(times.of(frame) >= times.of(frame - 1));
 }
 
 TEST_CASE("Frame times: the speed follows the pace") {
