@@ -96,14 +96,16 @@ TEST_CASE("Frame times: between two keys the speed changes at a constant rate in
 }
 
 TEST_CASE("Frame times: the largest and the smallest factors give finite times in order") {
-  const FrameTimes times{0.0, 1.0, 1e3, 4000, {{1.0, 1e6}, {2.0, 1e-6}, {3.0, 1e-6}, {4.0, 1e6}}};
+  // At these times the square of the factor as 1e12 + slope (t - 15.4) rounds to -1.2e-4.
+  const FrameTimes times{
+      0.0, 1.0, 1e3, 4000, {{15.4, 1e6}, {16.1, 1e-6}, {17.0, 1e-6}, {18.0, 1e6}}};
   double before = 0.0;
-  for (const double time : {0.5, 1.0, 1.5, 2.0 - 1e-15, 2.0, 3.0, 3.0 + 1e-15, 4.0, 1e9}) {
+  for (const double time : {0.5, 15.4, 15.9, 16.1, 17.0, 17.5, 18.0, 1e9}) {
     CAPTURE(time);
     const double seconds = times.seconds_at(time);
     CHECK(std::isfinite(seconds));
     CHECK(seconds >= before);
-    // A rounding error of the seconds counts as often as the speed says.
+    // The speed multiplies the rounding error of the seconds.
     const double rounding =
         4.0 * std::numeric_limits<double>::epsilon() * (seconds * times.speed_at(time) + time);
     CHECK(std::fabs(times.time_after(seconds) - time) <= rounding);
