@@ -225,7 +225,6 @@ void require_comparable(const RenderOptions& options) {
   const auto refuse = [](const char* flag, const char* problem) {
     throw UserError({flag, 0, 0}, problem, std::string("omit ") + flag + ", or give one scene");
   };
-  if (options.sound) refuse("--sound", "a film of several gases has no sound");
   if (options.slurm > 0) refuse("--slurm", "an array job films one gas");
   if (!options.join.empty()) refuse("--join", "parts of a film are joined without their scenes");
 }

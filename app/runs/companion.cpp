@@ -9,6 +9,7 @@
 #include "engine/checkpoint/archive.h"
 #include "engine/dimension.h"
 #include "engine/error.h"
+#include "engine/publish/click_recorder.h"
 #include "engine/publish/scheduled_run.h"
 #include "engine/scene/scene_file.h"
 
@@ -53,6 +54,11 @@ class CompanionRun final : public Companion {
   }
   PlottedGas plotted() override { return plots_->gas(); }
   Snapshot snapshot() override { return run_->snapshot(); }
+  void listen() override { clicks_.emplace().follow(run_->simulation()); }
+  std::vector<Click> take_clicks() override { return clicks_->take(); }
+  std::unique_ptr<SoundPreview> preview() const override {
+    return preview_of(*run_, compared_.scene);
+  }
   RangeEnds first_ranges(double last) const override {
     return clatter::first_ranges(*run_, compared_.scene, view_, exposure_, last);
   }
@@ -71,9 +77,11 @@ class CompanionRun final : public Companion {
   void start(const std::string& shown, const std::string& plots, int threads) {
     run_->use_threads(threads);
     run_->show(view_, shown, exposure_);
-    if (film_.plots.empty()) return;
-    plots_.emplace(*run_, film_, plots);
-    run_->on_change = [this](Simulation<D>& next) { plots_->follow(next); };
+    if (!film_.plots.empty()) plots_.emplace(*run_, film_, plots);
+    run_->on_change = [this](Simulation<D>& next) {
+      if (clicks_) clicks_->follow(next);
+      if (plots_) plots_->follow(next);
+    };
   }
 
   ComparedScene compared_;
@@ -81,7 +89,8 @@ class CompanionRun final : public Companion {
   FilmPlots film_;
   double exposure_;
   std::optional<ScheduledRun<D>> run_;
-  std::optional<PlotRecorder<D>> plots_;  // absent: no plots
+  std::optional<PlotRecorder<D>> plots_;    // absent: no plots
+  std::optional<ClickRecorder<D>> clicks_;  // absent: nobody listens
 };
 
 }  // namespace

@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/plots/plot_recorder.h"
 #include "app/runs/compared_scenes.h"
+#include "app/runs/sound_preview.h"
 #include "engine/publish/snapshot.h"
 #include "render/layers/renderer.h"
 
@@ -22,6 +24,12 @@ class Companion {
   virtual Snapshot snapshot() = 0;
   /// The gas for plots, without a name. Only if the film has plots. Valid until the next call.
   virtual PlottedGas plotted() = 0;
+  /// Lists its clicks from now on.
+  virtual void listen() = 0;
+  /// The clicks since the last call, after listen().
+  virtual std::vector<Click> take_clicks() = 0;
+  /// As preview_of().
+  virtual std::unique_ptr<SoundPreview> preview() const = 0;
   /// As first_ranges().
   virtual RangeEnds first_ranges(double last) const = 0;
   /// As Simulation::state_hash().

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/runs/sound_preview.h"
 #include "app/system/interrupt.h"
 #include "engine/checkpoint/archive.h"
 #include "engine/error.h"
@@ -100,7 +101,7 @@ Film<D>::Film(Run<D>& run, const std::vector<ComparedScene>& compared, const Vie
     cells_[0].fix(*state_.ranges);
     for (std::size_t k = 0; k < companions; ++k) cells_[k + 1].fix(state_.companions[k].ranges);
   }
-  if (state_.sound && state_.sound->synthesiser) clicks_.follow(run_.simulation());
+  if (state_.sound && state_.sound->synthesiser) listen();
 }
 
 // All gases have the plots of the first one.
@@ -109,12 +110,18 @@ FilmPlots Film<D>::film_plots() const {
   return {view_.plots, scene_.measure.profile_axis, state_.times.speed};
 }
 
+// Size of the part of a picture that shows the gases.
+template <int D>
+Size Film<D>::gases_size() const {
+  return strip_ ? split_for_plots(state_.size).gases.size : state_.size;
+}
+
 // The cells of the run and of its companions, and the companions.
 template <int D>
 void Film<D>::add_cells(const std::vector<ComparedScene>& compared, const View& view, int threads,
                         const Gl& gl) {
   const std::vector<OverlayText> texts = texts_of(compared);
-  const Size whole = strip_ ? split_for_plots(state_.size).gases.size : state_.size;
+  const Size whole = gases_size();
   const auto add = [&](std::size_t k, const View& own) {
     const PictureCell cell =
         picture_cell(whole, static_cast<int>(k), static_cast<int>(texts.size()));
@@ -290,37 +297,41 @@ void Film<D>::share_ranges(const std::vector<RangeEnds>& ranges) {
 template <int D>
 bool Film<D>::choose_sound(Progress& progress) {
   if (!state_.sound || state_.sound->synthesiser) return true;
-  const SoundScale scale = listen_ahead();
+  std::vector<std::unique_ptr<SoundPreview>> gases;
+  gases.push_back(preview_of(run_.scheduled(), scene_));
+  for (const auto& companion : companions_) gases.push_back(companion->preview());
+  const SoundScale scale = sound_scale(gases, state_.times);
   // The look-ahead may have been interrupted.
   if (!run_.until(run_.simulation().time(), progress)) return false;
   state_.sound->synthesiser.emplace().use(scale);
-  clicks_.follow(run_.simulation());
+  listen();
   return true;
 }
 
-// The scale of the first seconds of the film that have a click. A dense gas has many clicks within
-// a frame.
+// Lists the clicks of all gases from now on.
 template <int D>
-SoundScale Film<D>::listen_ahead() const {
-  constexpr double kSeconds = 2.0;
-  constexpr long kManyClicks = 100'000;
-  ScheduledRun<D> ahead(scene_, run_.scheduled().seed(), run_.simulation().save());
-  ClickRecorder<D> clicks;
-  ahead.on_change = [&clicks](Simulation<D>& next) { clicks.follow(next); };
-  clicks.follow(ahead.simulation());
-  ClickSums sums;
-  double seconds = 0.0;
-  try {
-    for (long frame = 1; frame < state_.times.count; ++frame) {
-      if (!ahead.run_until(state_.times.of(frame), kNoLimit, kNoLimit, interrupted)) break;
-      sums.add(clicks.take());
-      seconds = static_cast<double>(frame) / state_.times.fps;
-      if (sums.count() >= kManyClicks || (sums.count() > 0 && seconds >= kSeconds)) break;
+void Film<D>::listen() {
+  clicks_.follow(run_.simulation());
+  for (const auto& companion : companions_) companion->listen();
+}
+
+// The clicks of all gases since the last call. Each gas is heard from the side of its cell.
+template <int D>
+std::vector<Click> Film<D>::take_clicks() {
+  const auto count = static_cast<int>(cells_.size());
+  const Size whole = gases_size();
+  std::vector<Click> all;
+  const auto add = [&](int number, std::vector<Click> clicks) {
+    const PictureCell cell = picture_cell(whole, number, count);
+    for (Click& click : clicks) {
+      click.place = (cell.left + click.place * cell.size.width) / whole.width;
+      all.push_back(click);
     }
-  } catch (const PhysicalStop&) {
-    // The film itself runs into the same stop later.
-  }
-  return sums.scale(seconds);
+  };
+  add(0, clicks_.take());
+  for (int k = 1; k < count; ++k)
+    add(k, companions_[static_cast<std::size_t>(k - 1)]->take_clicks());
+  return all;
 }
 
 template <int D>
@@ -336,7 +347,7 @@ template <int D>
 void Film<D>::render_sound(FrameSink& sink) {
   const FrameTimes& times = state_.times;
   Synthesiser& synthesiser = *state_.sound->synthesiser;
-  for (const Click& click : clicks_.take()) {
+  for (const Click& click : take_clicks()) {
     synthesiser.add(click, times.seconds_at(click.time));
   }
   sink.add_sound(synthesiser.render(samples_before(state_.next, times.fps)));

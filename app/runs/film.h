@@ -99,6 +99,7 @@ class Film {
   std::string state_now();
   FilmPlots film_plots() const;
   bool reach(double time, Progress& progress);
+  Size gases_size() const;
   void add_cells(const std::vector<ComparedScene>& compared, const View& view, int threads,
                  const Gl& gl);
   bool companions_until(double time);
@@ -107,7 +108,8 @@ class Film {
   std::vector<Snapshot> snapshots();
   Image picture_of(const std::vector<Snapshot>& snapshots);
   bool choose_sound(Progress& progress);
-  SoundScale listen_ahead() const;
+  void listen();
+  std::vector<Click> take_clicks();
   void follow_changes();
   Image strip();
   void render_sound(FrameSink& sink);

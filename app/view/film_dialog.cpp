@@ -72,7 +72,7 @@ std::vector<std::string> film_command(const FilmSettings& film,
   if (film.plots != film.own_plots) {
     add(true, {"--set", film.plots ? kPlots : "view.plots=[]"});
   }
-  add(film.sound && format && format->sound && scenes.size() == 1, {"--sound"});
+  add(film.sound && format && format->sound, {"--sound"});
   add(film.motion_blur, {"--shutter", "0.5"});
   add(film.transparent && format && format->alpha, {"--transparent"});
   add(true, {"--out", film.file});
@@ -199,7 +199,7 @@ void FilmDialog::choose_content(Controls& controls) {
   controls.toggle("film.blur", "Motion blur", "A shutter that is open for half of the time",
                   film_.motion_blur);
   const FilmFormat* format = format_of(film_.file);
-  if (format && format->sound && run_.gases == 1) {
+  if (format && format->sound) {
     controls.toggle("film.sound", "Sound", "A click at each collision", film_.sound);
   }
   if (format && format->alpha) {

@@ -30,7 +30,6 @@ struct FilmedRun {
   double latest = 0.0;             ///< latest simulation time
   double speed = 1.0;              ///< simulation time per second, as it is shown
   bool overlay = true;             ///< whether its pictures have title, figures and scales
-  std::size_t gases = 1;           ///< number of compared gases; a film of several has no sound
   bool plots = false;              ///< whether its scene has plots
   std::vector<PaceKey> pace = {};  ///< of its films, see View::pace
 };

@@ -143,7 +143,7 @@ std::vector<std::string> Gui::save_scenes() {
 void Gui::open_film_dialog() {
   const Frame& frame = session_.frame();
   if (!frame.scene) return;
-  film_dialog_.open({frame.head, frame.speed, session_.view().overlay, session_.gases(),
+  film_dialog_.open({frame.head, frame.speed, session_.view().overlay,
                      !session_.view().plots.empty(), session_.view().pace},
                     free_name(".mp4"));
 }

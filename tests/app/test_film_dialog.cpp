@@ -80,7 +80,7 @@ TEST_CASE("Film dialog: the command has all settings, and none that the format l
   film.own_plots = false;
   const Words several = film_command(film, {"s.toml", "t.toml"}, 1);
   CHECK(several[3] == "t.toml");
-  CHECK(std::ranges::count(several, "--sound") == 0);
+  CHECK(std::ranges::count(several, "--sound") == 1);
   film.file = "b.gif";
   const Words silent = film_command(film, {"s.toml"}, 1);
   CHECK(std::ranges::count(silent, "--sound") == 0);
@@ -113,7 +113,7 @@ TEST_CASE("Film dialog: its buttons choose the whole run or its last 20 seconds"
 TEST_CASE("Film dialog: the length follows the pace of the scene") {
   ShownDialog shown;
   // The film has half the speed up to t = 100.
-  shown.open({100.0, 2.0, true, 1, false, {{0.0, 0.5}, {100.0, 0.5}}}, "no-such-film.mp4");
+  shown.open({100.0, 2.0, true, false, {{0.0, 0.5}, {100.0, 0.5}}}, "no-such-film.mp4");
   CHECK(says(text_of(shown.driver), "Length in s { 100 }"));
 }
 
@@ -145,11 +145,6 @@ TEST_CASE("Film dialog: lists and boxes set quality, format and content") {
   tick(shown.driver, "film.make");
   CHECK(shown.action == FilmDialog::Action::Film);
   CHECK_FALSE(shown.dialog.is_open());
-  shown.open({50.0, 3.0, true, 2}, "other.mp4");
-  choose(shown.driver, "film.format", "MP4, plays everywhere");
-  CHECK_FALSE(says(text_of(shown.driver), "Sound"));
-  choose(shown.driver, "film.format", "GIF, for pages without a player");
-  tick(shown.driver, "film.cancel");
   // The next film has the same form, at the present speed. A view without texts has none to hide.
   shown.open({50.0, 3.0, false}, "other.mp4");
   CHECK(film.file == "other.gif");
@@ -158,7 +153,7 @@ TEST_CASE("Film dialog: lists and boxes set quality, format and content") {
   CHECK_FALSE(says(text_of(shown.driver), "figures"));
   tick(shown.driver, "film.command");
   CHECK(shown.action == FilmDialog::Action::CopyCommand);
-  shown.open({50.0, 3.0, true, 1, true}, "other.mp4");
+  shown.open({50.0, 3.0, true, true}, "other.mp4");
   CHECK(film.plots);
   CHECK(film.own_plots);
   tick(shown.driver, "film.cancel");

@@ -26,6 +26,86 @@ std::vector<StereoSample> samples_in(const std::string& bytes) {
   return samples;
 }
 
+// A collision of an event log as a film has it.
+struct ExpectedClick {
+  long sample;
+  double place;  // 0: left, 1: right
+  double energy;
+};
+
+constexpr double kFewFrom = 1.0, kFewSpeed = 0.2, kFewLength = 20.0;  // film and box of few.toml
+
+void write_few(const Shell& shell) {
+  shell.write(
+      "few.toml",
+      "title = \"Few\"\nbox.size = [20, 15]\nparticles = { count = 10, restitution = 0.9 }\n"
+      "walls.left = { kind = \"sinusoidal\", stroke = 0.2, frequency = 1.0 }\n"
+      "walls.right = { kind = \"static\" }\n"
+      "[[change]]\ntime = 6.0\nset = { \"particles.restitution\" = 0.7 }\n");
+}
+
+// The sound of a film of few.toml up to t = 30, at 7 frames a second.
+std::vector<StereoSample> sound_of_few(const Shell& shell, const std::string& flags) {
+  const Outcome film = shell.run(
+      "clatter render few.toml --seed 3 --quiet --fps 7 --from 1 --to 30 "
+      "--speed 0.2 --sound --out d " +
+      flags);
+  CAPTURE(film.err);
+  REQUIRE(film.code == 0);
+  return samples_in(shell.read("d/sound.wav"));
+}
+
+// The collisions of few.toml with a setting, from its event log. The gas is in the part of the
+// picture from `left`, of a width in units of the whole one.
+std::vector<ExpectedClick> expected_clicks(const Shell& shell, const std::string& setting,
+                                           double left, double width) {
+  REQUIRE(shell
+              .run("rm -f e.csv r.json && clatter measure few.toml --seed 3 --quiet --until 30 "
+                   "--events e.csv --out r.json --set " +
+                   setting)
+              .code == 0);
+  const nlohmann::json log = table_in(shell.read("e.csv")).columns;
+  std::vector<ExpectedClick> clicks;
+  for (std::size_t i = 0; i < log["time"].size(); ++i) {
+    const double time = log["time"][i];
+    const bool wall = log["partner_position_x"][i].is_null();
+    const double x = log["position_x"][i];
+    const double contact = wall ? x : 0.5 * (x + log["partner_position_x"][i].get<double>());
+    const double impulse =
+        std::hypot(log["impulse_x"][i].get<double>(), log["impulse_y"][i].get<double>());
+    if (time < kFewFrom) continue;
+    clicks.push_back({static_cast<long>(std::floor((time - kFewFrom) / kFewSpeed * 48000)),
+                      left + width * contact / kFewLength, impulse * impulse / (wall ? 8.0 : 4.0)});
+  }
+  return clicks;
+}
+
+// Checks the clicks that no other click precedes within a third of a second.
+void check_heard(const std::vector<StereoSample>& samples, std::vector<ExpectedClick> clicks) {
+  std::ranges::sort(clicks, {}, &ExpectedClick::sample);
+  long last = -48000;
+  int heard = 0;
+  std::vector<double> loudness;
+  for (const ExpectedClick& click : clicks) {
+    const bool apart = click.sample - last > 16000;
+    last = click.sample;
+    if (!apart || click.sample + 10 > static_cast<long>(samples.size())) continue;
+    CAPTURE(click.sample);
+    // Silence before the onset.
+    const auto begin = samples.begin() + std::max(0L, click.sample - 4800);
+    const auto onset = std::find_if(
+        begin, samples.end(), [](const StereoSample& sample) { return sample != StereoSample{}; });
+    CHECK(std::abs(onset - samples.begin() - click.sample) <= 1);
+    const double left = (*onset)[0], right = (*onset)[1];
+    CHECK(right * right / (left * left + right * right) ==
+          doctest::Approx(click.place).epsilon(0.03));
+    loudness.push_back((left * left + right * right) / click.energy);
+    ++heard;
+  }
+  CHECK(heard >= 10);
+  CHECK(*std::ranges::max_element(loudness) / *std::ranges::min_element(loudness) < 1.02);
+}
+
 // 150 frames, in three pieces. The laws change at t = 4.
 const std::string kSoundFilm =
     "clatter render scene.toml --size 64x48 --fps 10 --quiet --speed 1 --sound ";
@@ -37,54 +117,23 @@ void write_sound_scene(const Shell& shell) {
 }  // namespace
 
 TEST_CASE("Film sound: a click is heard at the sample, on the side and as loud as its collision") {
-  constexpr double kFrom = 1.0, kSpeed = 0.2;
   const Shell shell;
-  shell.write(
-      "few.toml",
-      "title = \"Few\"\nbox.size = [20, 15]\nparticles = { count = 10, restitution = 0.9 }\n"
-      "walls.left = { kind = \"sinusoidal\", stroke = 0.2, frequency = 1.0 }\n"
-      "walls.right = { kind = \"static\" }\n"
-      "[[change]]\ntime = 6.0\nset = { \"particles.restitution\" = 0.7 }\n");
-  REQUIRE(shell
-              .run("clatter measure few.toml --seed 3 --quiet --until 30 --events e.csv "
-                   "--out r.json")
-              .code == 0);
-  REQUIRE(shell
-              .run("clatter render few.toml --seed 3 --quiet --size 64x48 --fps 7 --from 1 "
-                   "--to 30 --speed 0.2 --sound --out d")
-              .code == 0);
-  const std::vector<StereoSample> samples = samples_in(shell.read("d/sound.wav"));
+  write_few(shell);
+  const std::vector<StereoSample> samples = sound_of_few(shell, "--size 64x48");
   CHECK(samples.size() == 145 * 48000);
-  const nlohmann::json log = table_in(shell.read("e.csv")).columns;
-  const std::vector<double> times = log["time"];
-  long last = -48000;
-  int heard = 0;
-  std::vector<double> loudness;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    const auto expected = std::lround(std::floor((times[i] - kFrom) / kSpeed * 48000));
-    if (expected < 0) continue;
-    const bool apart = expected - last > 16000;
-    last = expected;
-    if (!apart || expected + 10 > static_cast<long>(samples.size())) continue;
-    CAPTURE(times[i]);
-    // Silence before the onset.
-    const auto begin = samples.begin() + std::max(0L, expected - 4800);
-    const auto onset = std::find_if(
-        begin, samples.end(), [](const StereoSample& sample) { return sample != StereoSample{}; });
-    CHECK(std::abs(onset - samples.begin() - expected) <= 1);
-    const double left = (*onset)[0], right = (*onset)[1];
-    const bool wall = log["partner_position_x"][i].is_null();
-    const double x = log["position_x"][i];
-    const double place = (wall ? x : 0.5 * (x + log["partner_position_x"][i].get<double>())) / 20.0;
-    CHECK(right * right / (left * left + right * right) == doctest::Approx(place).epsilon(0.03));
-    const double impulse =
-        std::hypot(log["impulse_x"][i].get<double>(), log["impulse_y"][i].get<double>());
-    const double energy = impulse * impulse / (wall ? 8.0 : 4.0);
-    loudness.push_back((left * left + right * right) / energy);
-    ++heard;
+  check_heard(samples, expected_clicks(shell, "particles.restitution=0.9", 0.0, 1.0));
+}
+
+TEST_CASE("Film sound: gases beside each other and plots are heard from the sides of their cells") {
+  const Shell shell;
+  write_few(shell);
+  const std::vector<StereoSample> samples = sound_of_few(
+      shell, "--compare particles.count=7 --size 240x90 --set 'view.plots=[\"energy\"]'");
+  std::vector<ExpectedClick> clicks = expected_clicks(shell, "particles.count=10", 0.0, 0.5);
+  for (const ExpectedClick& click : expected_clicks(shell, "particles.count=7", 0.5, 0.5)) {
+    clicks.push_back(click);
   }
-  CHECK(heard >= 10);
-  CHECK(*std::ranges::max_element(loudness) / *std::ranges::min_element(loudness) < 1.02);
+  check_heard(samples, clicks);
 }
 
 TEST_CASE(
