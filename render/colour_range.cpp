@@ -35,10 +35,14 @@ double round_down(double value) {
   return power;
 }
 
+double steady_end(double end, double extent) {
+  const bool fits = 0.5 * end <= extent && extent <= 1.05 * end;
+  return extent > 0.0 && !fits ? round_up(extent) : end;
+}
+
 double SteadyExtent::follow(double extent, bool hold) {
-  const bool fits = 0.5 * current_ <= extent && extent <= 1.05 * current_;
   const bool kept = hold && held_;
-  if (extent > 0.0 && !fits && !kept) current_ = round_up(extent);
+  if (!kept) current_ = steady_end(current_, extent);
   held_ = hold && (held_ || extent > 0.0);
   return current_ > 0.0 ? current_ : 1.0;
 }

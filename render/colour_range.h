@@ -18,13 +18,17 @@ double round_up(double value);
 /// The largest round number at or below `value` > 0: 1, 2 or 5 times a power of ten.
 double round_down(double value);
 
+/// The next end of an automatic colour range for values of this robust extent: `end`, or a round
+/// one if the extent is outside 0.5..1.05 times the end. An end of 0 is none yet, and an extent of
+/// 0 has no data.
+double steady_end(double end, double extent);
+
 /// The end of an automatic colour range. Hysteresis and round steps keep the meaning of a colour
 /// constant over most of a film.
 class SteadyExtent {
  public:
-  /// The end for values of this robust extent; 1 before the first extent above 0. The end changes
-  /// if the extent is outside 0.5..1.05 times the end. With `hold` it stays fixed after the first
-  /// extent above 0.
+  /// The steady_end() for values of this robust extent; 1 before the first extent above 0. With
+  /// `hold` it stays fixed after the first extent above 0.
   double follow(double extent, bool hold = false);
   /// True if the end is fixed while `hold` is set.
   bool held() const { return held_; }

@@ -178,12 +178,11 @@ FilmState film_asked_for(const RenderOptions& options, const View& view,
 FilmState restarted(FilmState film) {
   film.next = 0;
   film.begin.reset();
-  film.ranges.reset();
-  film.camera.reset();
   film.shown.clear();
   film.plots.clear();
   film.checksums.clear();
   film.notes.clear();
+  film.cells.clear();
   film.companions.clear();
   if (film.sound) film.sound.emplace();
   return film;

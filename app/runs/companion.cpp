@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "app/plots/plot_recorder.h"
-#include "app/runs/film_cell.h"
+#include "app/runs/film_ranges.h"
 #include "app/system/interrupt.h"
 #include "engine/checkpoint/archive.h"
 #include "engine/dimension.h"
@@ -59,8 +59,8 @@ class CompanionRun final : public Companion {
   std::unique_ptr<SoundPreview> preview() const override {
     return preview_of(*run_, compared_.scene);
   }
-  RangeEnds first_ranges(double last) const override {
-    return clatter::first_ranges(*run_, compared_.scene, view_, exposure_, last);
+  RangeEnds first_extents(double last) const override {
+    return clatter::first_extents(*run_, compared_.scene, view_, exposure_, last);
   }
   std::uint64_t state_hash() const override { return run_->simulation().state_hash(); }
   std::string save() override {

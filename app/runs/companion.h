@@ -30,8 +30,8 @@ class Companion {
   virtual std::vector<Click> take_clicks() = 0;
   /// As preview_of().
   virtual std::unique_ptr<SoundPreview> preview() const = 0;
-  /// As first_ranges().
-  virtual RangeEnds first_ranges(double last) const = 0;
+  /// As first_extents().
+  virtual RangeEnds first_extents(double last) const = 0;
   /// As Simulation::state_hash().
   virtual std::uint64_t state_hash() const = 0;
   /// The run, its scene and its averages, for a checkpoint.

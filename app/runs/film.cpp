@@ -36,17 +36,17 @@ static void visit(Archive& io, FilmSound& sound) {
 }
 
 template <class Archive>
-static void visit(Archive& io, CompanionState& state) {
-  auto& [ranges, camera, run] = state;
-  io(ranges, camera, run);
+static void visit(Archive& io, CellState& state) {
+  auto& [ranges, camera] = state;
+  io(ranges, camera);
 }
 
 template <class Archive>
 static void visit(Archive& io, FilmState& state) {
-  auto& [times, size, samples, shutter, transparent, overlay, sound, next, begin, ranges, camera,
-         shown, plots, checksums, notes, companions] = state;
-  io(times, size, samples, shutter, transparent, overlay, sound, next, begin, ranges, camera, shown,
-     plots, checksums, notes, companions);
+  auto& [times, size, samples, shutter, transparent, overlay, sound, next, begin, shown, plots,
+         checksums, notes, cells, companions] = state;
+  io(times, size, samples, shutter, transparent, overlay, sound, next, begin, shown, plots,
+     checksums, notes, cells, companions);
 }
 
 std::string to_bytes(FilmState state) {
@@ -89,6 +89,7 @@ Film<D>::Film(Run<D>& run, const std::vector<ComparedScene>& compared, const Vie
                     "give the same scenes, or begin another film with --from");
   }
   state_.companions.resize(companions);
+  state_.cells.resize(compared.size());
   run_.scheduled().show(view, state_.shown, state_.largest_exposure());
   run_.film_state = [this] { return state_now(); };
   if (!view.plots.empty()) {
@@ -97,10 +98,6 @@ Film<D>::Film(Run<D>& run, const std::vector<ComparedScene>& compared, const Vie
   }
   follow_changes();
   add_cells(compared, view, threads, gl);
-  if (state_.ranges) {
-    cells_[0].fix(*state_.ranges);
-    for (std::size_t k = 0; k < companions; ++k) cells_[k + 1].fix(state_.companions[k].ranges);
-  }
   if (state_.sound && state_.sound->synthesiser) listen();
 }
 
@@ -132,7 +129,7 @@ void Film<D>::add_cells(const std::vector<ComparedScene>& compared, const View& 
     View own = compared[k].scene.view;
     own.overlay = own.overlay && view.overlay;
     companions_.push_back(companion_of(compared[k], own, film_plots(), state_.largest_exposure(),
-                                       threads, state_.companions[k - 1].run, "--resume"));
+                                       threads, state_.companions[k - 1], "--resume"));
     add(k, own);
   }
 }
@@ -145,7 +142,7 @@ std::string Film<D>::state_now() {
   state.shown = run_.scheduled().save_shown();
   if (plots_) state.plots = plots_->save();
   for (std::size_t k = 0; k < companions_.size(); ++k) {
-    state.companions[k].run = companions_[k]->save();
+    state.companions[k] = companions_[k]->save();
   }
   return to_bytes(std::move(state));
 }
@@ -227,17 +224,10 @@ std::vector<Snapshot> Film<D>::snapshots() {
     snapshot.exposure = std::min(snapshot.exposure, state_.exposure(speed));
   }
   for (FilmCell& cell : cells_) cell.set_speed(speed);
-  if (companions_.size() > 0 && state_.times.count == 1) {
-    std::vector<RangeEnds> ranges;
-    for (std::size_t k = 0; k < now.size(); ++k) {
-      ranges.push_back(range_ends(now[k], cells_[k].view()));
-    }
-    share_ranges(ranges);
-  }
-  if (!state_.camera) state_.camera = cells_[0].fit(now[0]);
-  for (std::size_t k = 0; k < companions_.size(); ++k) {
-    std::optional<Camera>& camera = state_.companions[k].camera;
-    if (!camera) camera = cells_[k + 1].fit(now[k + 1]);
+  move_ranges(now);
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    std::optional<Camera>& camera = state_.cells[k].camera;
+    if (!camera) camera = cells_[k].fit(now[k]);
   }
   return now;
 }
@@ -245,9 +235,8 @@ std::vector<Snapshot> Film<D>::snapshots() {
 template <int D>
 Image Film<D>::picture_of(const std::vector<Snapshot>& snapshots) {
   std::vector<Image> pictures;
-  pictures.push_back(cells_[0].draw(snapshots[0], *state_.camera));
-  for (std::size_t k = 0; k < companions_.size(); ++k) {
-    pictures.push_back(cells_[k + 1].draw(snapshots[k + 1], *state_.companions[k].camera));
+  for (std::size_t k = 0; k < snapshots.size(); ++k) {
+    pictures.push_back(cells_[k].draw(snapshots[k], *state_.cells[k].camera));
   }
   if (!strip_) return joined_cells(state_.size, std::move(pictures));
   const auto [gases, plots] = split_for_plots(state_.size);
@@ -272,26 +261,48 @@ Image Film<D>::strip() {
 
 template <int D>
 bool Film<D>::choose_ranges(Progress& progress) {
-  if (state_.ranges || state_.times.count == 1) return true;
+  if (state_.cells[0].ranges || state_.times.count == 1) return true;
   const double last = state_.times.last();
-  std::vector<RangeEnds> ranges = {
-      first_ranges(run_.scheduled(), scene_, cells_[0].view(), state_.largest_exposure(), last)};
-  for (const auto& companion : companions_) ranges.push_back(companion->first_ranges(last));
+  std::vector<RangeEnds> extents = {
+      first_extents(run_.scheduled(), scene_, cells_[0].view(), state_.largest_exposure(), last)};
+  for (const auto& companion : companions_) extents.push_back(companion->first_extents(last));
   // The look-ahead may have been interrupted.
   if (!run_.until(run_.simulation().time(), progress)) return false;
-  share_ranges(ranges);
+  begin_ranges(extents);
   return true;
 }
 
-// Gives all cells the same ranges.
+// The extents that all cells have together.
 template <int D>
-void Film<D>::share_ranges(const std::vector<RangeEnds>& ranges) {
+std::vector<RangeEnds> Film<D>::shared(const std::vector<RangeEnds>& extents) const {
   std::vector<View> views;
   for (const FilmCell& cell : cells_) views.push_back(cell.view());
-  const std::vector<RangeEnds> shared = shared_ranges(ranges, views);
-  state_.ranges = shared[0];
-  for (std::size_t k = 0; k < cells_.size(); ++k) cells_[k].fix(shared[k]);
-  for (std::size_t k = 1; k < cells_.size(); ++k) state_.companions[k - 1].ranges = shared[k];
+  return shared_extents(extents, views);
+}
+
+template <int D>
+void Film<D>::begin_ranges(const std::vector<RangeEnds>& extents) {
+  const std::vector<RangeEnds> all = shared(extents);
+  for (std::size_t k = 0; k < cells_.size(); ++k) state_.cells[k].ranges = first_ranges(all[k]);
+}
+
+// Moves the ranges of all cells to those of the present frame. A single picture begins with them.
+template <int D>
+void Film<D>::move_ranges(const std::vector<Snapshot>& snapshots) {
+  const bool single = state_.times.count == 1;
+  std::vector<RangeEnds> extents;
+  for (std::size_t k = 0; k < cells_.size(); ++k) {
+    const View& view = cells_[k].view();
+    extents.push_back(single ? extents_of(snapshots[k], view)
+                             : settled_extents(snapshots[k], view));
+  }
+  if (single) begin_ranges(extents);
+  const std::vector<RangeEnds> all = shared(extents);
+  for (std::size_t k = 0; k < cells_.size(); ++k) {
+    FilmRanges& ranges = *state_.cells[k].ranges;
+    ranges = moved(ranges, all[k], cells_[k].view(), state_.times.fps);
+    cells_[k].fix(ranges.shown);
+  }
 }
 
 template <int D>

@@ -11,6 +11,7 @@
 #include "app/runs/companion.h"
 #include "app/runs/compared_scenes.h"
 #include "app/runs/film_cell.h"
+#include "app/runs/film_ranges.h"
 #include "app/runs/frame_times.h"
 #include "app/runs/run.h"
 #include "engine/publish/click_recorder.h"
@@ -35,32 +36,30 @@ struct FilmSound {
   long samples() const { return synthesiser ? synthesiser->samples() : 0; }
 };
 
-/// A companion of a film before the next frame.
-struct CompanionState {
-  RangeEnds ranges;              ///< colour ranges
-  std::optional<Camera> camera;  ///< shows the whole box; absent: not chosen yet
-  std::string run;               ///< see Companion::save()
+/// The cell of a gas in a film before the next frame.
+struct CellState {
+  std::optional<FilmRanges> ranges;  ///< absent: not chosen yet
+  std::optional<Camera> camera;      ///< shows the whole box; absent: not chosen yet
 };
 
 /// All settings that the pictures of a film depend on, besides the scene and the run. Parts made
 /// with the same settings form one film.
 struct FilmState {
   FrameTimes times;
-  Size size;                        ///< of the pictures
-  int samples = 1;                  ///< samples per pixel along each axis
-  double shutter = 0.0;             ///< exposure as a share of the time between two frames
-  bool transparent = false;         ///< without a background
-  bool overlay = true;              ///< whether pictures have text
-  std::optional<FilmSound> sound;   ///< absent: a silent film
-  long next = 0;                    ///< number of the next frame
-  std::optional<long> begin;        ///< of the part in progress; absent: none
-  std::optional<RangeEnds> ranges;  ///< colour ranges; absent: not chosen yet
-  std::optional<Camera> camera;     ///< shows the whole box; absent: not chosen yet
-  std::string shown;                ///< fields of the past, see ScheduledRun::save_shown()
-  std::string plots = {};           ///< see PlotRecorder::save(); empty: no plots
-  std::vector<std::uint32_t> checksums = {};    ///< of the pieces before `next`, see FrameSink
-  std::vector<PngText> notes = {};              ///< of the picture before `next`
-  std::vector<CompanionState> companions = {};  ///< of a film that compares gases, in order
+  Size size;                       ///< of the pictures
+  int samples = 1;                 ///< samples per pixel along each axis
+  double shutter = 0.0;            ///< exposure as a share of the time between two frames
+  bool transparent = false;        ///< without a background
+  bool overlay = true;             ///< whether pictures have text
+  std::optional<FilmSound> sound;  ///< absent: a silent film
+  long next = 0;                   ///< number of the next frame
+  std::optional<long> begin;       ///< of the part in progress; absent: none
+  std::string shown;               ///< fields of the past, see ScheduledRun::save_shown()
+  std::string plots = {};          ///< see PlotRecorder::save(); empty: no plots
+  std::vector<std::uint32_t> checksums = {};  ///< of the pieces before `next`, see FrameSink
+  std::vector<PngText> notes = {};            ///< of the picture before `next`
+  std::vector<CellState> cells = {};          ///< of all gases, in order
+  std::vector<std::string> companions = {};   ///< the gases after the first, see Companion::save()
 
   /// The simulation time that a frame averages over, before its own time, at a speed.
   double exposure(double speed) const { return shutter * speed / times.fps; }
@@ -74,10 +73,11 @@ std::string to_bytes(FilmState state);
 /// The film of a checkpoint. Absent without a film. Throws UserError if it is damaged.
 std::optional<FilmState> film_of(const Resumed& resumed);
 
-/// Films a run, frame by frame. Automatic colour ranges are chosen once, from the first averaging
-/// window of the whole film. The run computes this window in advance. The same holds for the scale
-/// of the sound. Companions are drawn in cells beside the run, at the same times and with the same
-/// ranges. Plots of all gases are beside the cells.
+/// Films a run, frame by frame. The first colour ranges come from the first averaging window of the
+/// whole film, which the run computes in advance. Automatic ranges then follow the frames, see
+/// moved(). The scale of the sound also comes from a run in advance, and stays. Companions are
+/// drawn in cells beside the run, at the same times and with the same ranges. Plots of all gases
+/// are beside the cells.
 template <int D>
 class Film {
  public:
@@ -104,7 +104,9 @@ class Film {
                  const Gl& gl);
   bool companions_until(double time);
   bool choose_ranges(Progress& progress);
-  void share_ranges(const std::vector<RangeEnds>& ranges);
+  std::vector<RangeEnds> shared(const std::vector<RangeEnds>& extents) const;
+  void begin_ranges(const std::vector<RangeEnds>& extents);
+  void move_ranges(const std::vector<Snapshot>& snapshots);
   std::vector<Snapshot> snapshots();
   Image picture_of(const std::vector<Snapshot>& snapshots);
   bool choose_sound(Progress& progress);

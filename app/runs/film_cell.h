@@ -1,8 +1,5 @@
 #pragma once
 
-#include <vector>
-
-#include "engine/publish/scheduled_run.h"
 #include "render/gl/canvas.h"
 #include "render/layers/renderer.h"
 #include "render/output/image.h"
@@ -17,7 +14,7 @@ class FilmCell {
            OverlayText text);
 
   const View& view() const { return view_; }
-  /// Fixes the ends of the automatic colour ranges.
+  /// Sets the ends of the automatic colour ranges.
   void fix(const RangeEnds& ends) { ranges_.fix(ends); }
   /// The camera that shows the whole box.
   Camera fit(const Snapshot& snapshot) {
@@ -37,16 +34,5 @@ class FilmCell {
   Renderer renderer_;
   AutoRanges ranges_;
 };
-
-/// Automatic colour ranges from the first averaging window of a film, that begins at the present
-/// time of the run: the largest values at the ends of the parts of the window, and of its average.
-/// The run stays where it is. `last` is the time of the last frame. Ends early at an interrupt.
-template <int D>
-RangeEnds first_ranges(const ScheduledRun<D>& run, const Scene& scene, const View& view,
-                       double exposure, double last);
-
-/// The same ranges for all views of the same quantities: the larger ends.
-std::vector<RangeEnds> shared_ranges(const std::vector<RangeEnds>& ranges,
-                                     const std::vector<View>& views);
 
 }  // namespace clatter

@@ -123,8 +123,8 @@ inline constexpr auto kViewKeys = key_table(
      {"speed", "t/s", "Simulation time per second of film or window."},
      {"palette", "", "Colours of the particles. Quantities with a sign are blue and red."},
      {"range", "",
-      "Range of the particles' colours. auto follows the picture in the window. Films keep the "
-      "range of their first averaging window. locked keeps the first range."},
+      "Range of the particles' colours. auto follows the picture in round steps. locked keeps the "
+      "first range, in films that of their first averaging window."},
      {"field_palette", "",
       "Hues of the heatmap. Zero has the colour of the background. Particles stand out from all "
       "hues. Quantities with a sign are blue and red."},
@@ -132,8 +132,9 @@ inline constexpr auto kViewKeys = key_table(
       "Drawing of the heatmap. smooth interpolates between cells. cells gives each cell the colour "
       "of its exact value, and hatches cells without a value. A volume has cells."},
      {"field_range", "",
-      "Range of the heatmap's colours. auto follows the picture in the window. Films keep the "
-      "range of their first averaging window. locked keeps the range of the first whole window."},
+      "Range of the heatmap's colours. auto follows the picture in round steps. In films it "
+      "does so after the first averaging window. locked keeps the range of the first whole "
+      "window."},
      {"arrows", "", "Field of the arrows. Without a value there are none."},
      {"theme", "",
       "Colours of background, letters, walls and lines. It does not change the size of letters."},

@@ -69,13 +69,12 @@ bool shows_field(const Snapshot& snapshot, const View& view) {
 
 }  // namespace
 
-RangeEnds range_ends(const Snapshot& snapshot, const View& view) {
-  const auto end = [](double extent) { return extent > 0.0 ? round_up(extent) : 0.0; };
-  RangeEnds ends;
-  if (view.colour_by != ColourBy::None) ends.disks = end(disk_extent(snapshot, view.colour_by));
-  if (shows_field(snapshot, view)) ends.field = end(field_extent(snapshot, view));
-  if (view.arrows && snapshot.arrows) ends.arrows = end(arrow_extent(*snapshot.arrows));
-  return ends;
+RangeEnds extents_of(const Snapshot& snapshot, const View& view) {
+  RangeEnds extents;
+  if (view.colour_by != ColourBy::None) extents.disks = disk_extent(snapshot, view.colour_by);
+  if (shows_field(snapshot, view)) extents.field = field_extent(snapshot, view);
+  if (view.arrows && snapshot.arrows) extents.arrows = arrow_extent(*snapshot.arrows);
+  return extents;
 }
 
 Legend AutoRanges::Followed::legend(const Label& shown, const ColourRange& range, ColourMap map,
@@ -85,7 +84,7 @@ Legend AutoRanges::Followed::legend(const Label& shown, const ColourRange& range
   }
   const bool locked = range.kind == ColourRange::Locked;
   const double last = end(shown, extent, locked && lockable);
-  const bool held = fixed > 0.0 || followed.held();
+  const bool held = locked && (fixed > 0.0 || followed.held());
   return {shown, scale_to(last, shown.sign, map), held ? "locked" : "auto"};
 }
 

@@ -9,15 +9,15 @@
 
 namespace clatter {
 
-/// The ends of automatic colour ranges; 0: no data for the range.
+/// The ends of automatic colour ranges, or the extents of their values; 0: no data for the range.
 struct RangeEnds {
   double disks = 0.0;
   double field = 0.0;
   double arrows = 0.0;
 };
 
-/// The round ends for a single snapshot.
-RangeEnds range_ends(const Snapshot& snapshot, const View& view);
+/// The robust extents of the values that a snapshot shows.
+RangeEnds extents_of(const Snapshot& snapshot, const View& view);
 
 /// Passes over all members, in order, for checkpoints.
 template <class Archive>
@@ -27,10 +27,10 @@ void visit(Archive& io, RangeEnds& range) {
 }
 
 /// The legends of a sequence of snapshots. Automatic ranges follow the sequence unless they are
-/// fixed, so each film needs its own ranges.
+/// fixed, so each window needs its own ranges.
 class AutoRanges {
  public:
-  /// Fixes the ends of the automatic ranges.
+  /// Fixes the ends of the automatic and locked ranges, until the next call.
   void fix(const RangeEnds& ends);
 
   /// The legends of the next picture. Automatic ranges follow the snapshot.

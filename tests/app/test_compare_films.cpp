@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/runs/compared_scenes.h"
-#include "app/runs/film_cell.h"
+#include "app/runs/film_ranges.h"
 #include "engine/scene/scene_file.h"
 #include "render/output/image.h"
 #include "tests/app/film_scene.h"
@@ -70,15 +70,15 @@ TEST_CASE("Compare films: each cell shows the gas alone, with its hash") {
   CHECK(says(*text, "restitution = 1.0"));
 }
 
-TEST_CASE("Compare films: cells have the larger ends of the automatic ranges") {
+TEST_CASE("Compare films: cells have the larger extents of their quantities") {
   View first, second;
   first.arrows = Quantity::Velocity;
   second.arrows = Quantity::HeatFlux;
-  const auto shared = shared_ranges({{1.0, 5.0, 3.0}, {2.0, 4.0, 7.0}}, {first, second});
+  const auto shared = shared_extents({{1.0, 5.0, 3.0}, {2.0, 4.0, 7.0}}, {first, second});
   REQUIRE(shared.size() == 2);
-  for (const RangeEnds& ends : shared) {
-    CHECK(ends.disks == 2.0);
-    CHECK(ends.field == 5.0);
+  for (const RangeEnds& extents : shared) {
+    CHECK(extents.disks == 2.0);
+    CHECK(extents.field == 5.0);
   }
   CHECK(shared[0].arrows == 3.0);  // another quantity
   CHECK(shared[1].arrows == 7.0);

@@ -78,13 +78,13 @@ TEST_CASE("Automatic ranges: fixed ones stop following, but given ones still hol
   Snapshot snapshot;
   snapshot.box = Vec2(10.0, 10.0);
   snapshot.field = FieldMap{*view.field, {1, 1}, {0.97}, true};
-  const RangeEnds ends = range_ends(snapshot, view);
-  CHECK(ends.field == 1.0);
-  CHECK(ends.disks == 0.0);
-  CHECK(ends.arrows == 0.0);
+  const RangeEnds extents = extents_of(snapshot, view);
+  CHECK(extents.field == 0.97);
+  CHECK(extents.disks == 0.0);
+  CHECK(extents.arrows == 0.0);
   Renderer renderer(context->gl());
   AutoRanges ranges;
-  ranges.fix(ends);
+  ranges.fix({.field = 1.0});
   const ColourMap map = field_map(FieldPalette::Blue, kDarkTheme.background);
   const Colour top = map.back(), middle = map[8];
   CHECK(field_colour(renderer, context->gl(), view, 100.0, true, ranges) == top);
@@ -97,6 +97,8 @@ TEST_CASE("Automatic ranges: fixed ones stop following, but given ones still hol
   view.field_range = {};
   CHECK(AutoRanges().legends(snapshot, view).field->range == "auto");
   ranges.fix({.disks = 8.0, .field = 2.0, .arrows = 8.0});
+  CHECK(ranges.legends(snapshot, view).field->range == "auto");
+  view.field_range = {ColourRange::Locked};
   CHECK(ranges.legends(snapshot, view).field->range == "locked");
   CHECK(field_colour(renderer, context->gl(), view, 1.0, true, ranges) == middle);
   ranges.fix({});
