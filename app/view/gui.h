@@ -125,6 +125,7 @@ class Gui {
   void open_gallery_scene(const EmbeddedFile& scene);
   void open_file(const std::string& file);
   void fix_range();
+  void trace();
   void face_preset(char key);
   void screenshot();
   Scene recorded_beside(const Frame& gas, const std::string& file) const;

@@ -109,6 +109,8 @@ void Gui::use_key(const KeyPress& press) {
       return press.shift ? session_.restart_with_new_seed() : session_.restart();
     case 't':
       return panels_.toggle(Sheet::Lesson);
+    case 'v':
+      return trace();
     default:
       return face_preset(press.letter);
   }
@@ -187,6 +189,18 @@ void Gui::fix_range() {
     if (ends[1] > 0.0) view.range = {ColourRange::Given, ends};
   }
   controls_.show(view, true);
+}
+
+// Makes the picked particle the tracer. Without another particle it ends the tracer.
+void Gui::trace() {
+  constexpr double kSeconds = 20.0;  // of playing
+  View view = session_.view();
+  const auto picked = viewport_.picked();
+  const std::optional<Tracer> before = std::exchange(view.tracer, std::nullopt);
+  if (picked && !(before && before->particle == static_cast<int>(*picked))) {
+    view.tracer = Tracer{static_cast<int>(*picked), kSeconds * session_.frame().speed};
+  }
+  controls_.show(view, view.tracer != before);
 }
 
 // Spheres are seen from the direction with this key, if there is one.

@@ -124,6 +124,7 @@ void particle_label(const Frame& frame, std::size_t particle, bool follows, ImVe
   if (frame.last_collision) show_collision("last collision", *frame.last_collision, disks);
   if (frame.next_collision) show_collision("next collision", *frame.next_collision, disks);
   ImGui::TextDisabled(follows ? "followed; Esc stops following" : "double-click to follow");
+  ImGui::TextDisabled("V shows or hides its path");
   end_note();
 }
 
@@ -136,7 +137,7 @@ struct KeyLine {
   bool spheres_only = false;
 };
 
-constexpr std::array<KeyLine, 31> kKeys = {{
+constexpr std::array<KeyLine, 32> kKeys = {{
     {"Space", "play or pause"},
     {"B", "play backwards, or forwards again"},
     {".  ,", "next frame, previous frame"},
@@ -155,6 +156,7 @@ constexpr std::array<KeyLine, 31> kKeys = {{
     {"C   N", "compare: a copy of the gas beside it; the next gas"},
     {"T", "goal and suggestions of the scene"},
     {"M", "colour range of the particles: fixed or automatic"},
+    {"V", "path of the picked particle"},
     {"Tab", "hide or show the panels"},
     {"L", "lecture: large type, three sliders and a plot"},
     {"D  K  W", "lecture: pen, pointer with a trail, stopwatch"},

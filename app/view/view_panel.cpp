@@ -139,6 +139,18 @@ static bool choose_trails(Controls& controls, std::optional<double>& trails,
   return changed;
 }
 
+static bool choose_path(Controls& controls, Tracer& tracer, const std::optional<Tracer>& usual) {
+  return controls.number({.key = "view.tracer.time",
+                          .name = "Path of the tracer",
+                          .unit = "t",
+                          .help = "Time over which its path is drawn",
+                          .low = 0.1,
+                          .high = 1000.0,
+                          .logarithmic = true,
+                          .format = "%.1f"},
+                         tracer.time, usual.value_or(Tracer{}).time);
+}
+
 std::array<double, 2> colour_ends(const Snapshot& snapshot, ColourBy colour_by) {
   const double most = colour_by == ColourBy::Depth ? 0.5 * snapshot.box.norm()
                                                    : 2.0 * std::sqrt(2.0 * snapshot.temperature);
@@ -170,6 +182,7 @@ void view_panel(Session& session, Controls& controls) {
   changed |= choose(controls, "view.arrows", "Arrows", "A field with a direction", kArrows, "none",
                     view.arrows, usual.arrows);
   changed |= choose_trails(controls, view.trails, usual.trails);
+  if (view.tracer) changed |= choose_path(controls, *view.tracer, usual.tracer);
   changed |= choose(controls, "view.theme", "Theme",
                     "Colours of the picture's background and walls, and of the panels", kThemes,
                     view.theme, usual.theme);

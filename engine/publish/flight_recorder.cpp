@@ -6,8 +6,9 @@
 namespace clatter {
 
 template <int D>
-FlightRecorder<D>::FlightRecorder(Simulation<D>& simulation, double span)
-    : simulation_(simulation), span_(span), since_(simulation.base_time()) {
+FlightRecorder<D>::FlightRecorder(Simulation<D>& simulation, double span,
+                                  std::optional<std::uint32_t> only)
+    : simulation_(simulation), span_(span), only_(only), since_(simulation.base_time()) {
   simulation.add_observer(*this);
 }
 
@@ -16,12 +17,13 @@ template <int D>
 FlightRecorder<D>::FlightRecorder(Simulation<D>& simulation, double span, FlightRecorder&& before)
     : simulation_(simulation),
       span_(span),
+      only_(before.only_),
       since_(std::max(before.since_, simulation.base_time() - before.span_)),
       ended_(std::move(before.ended_)) {
   const auto& flights_before = before.simulation_.particles();
   for (std::uint32_t i = 0; i < simulation.particles().size(); ++i) {
     const Flight<D>& flight = flights_before[i].flight;
-    if (flight.time == simulation.particles()[i].flight.time) continue;
+    if (!keeps(i) || flight.time == simulation.particles()[i].flight.time) continue;
     ended_.push_back({i, flight, simulation.base_time(), before.simulation_.model().gravity});
   }
   simulation.add_observer(*this);
@@ -62,6 +64,7 @@ std::vector<FlightPiece> FlightRecorder<D>::pieces() const {
   std::vector<FlightPiece> pieces;
   for (const Ended& flight : ended_) add_piece(pieces, flight);
   for (std::uint32_t i = 0; i < simulation_.particles().size(); ++i) {
+    if (!keeps(i)) continue;
     add_piece(pieces, {i, simulation_.particles()[i].flight, simulation_.base_time(),
                        simulation_.model().gravity});
   }
@@ -82,6 +85,7 @@ void FlightRecorder<D>::add_piece(std::vector<FlightPiece>& pieces, const Ended&
 
 template <int D>
 void FlightRecorder<D>::end_flight(const ParticleChange<D>& change, double time) {
+  if (!keeps(change.particle)) return;
   if (ended_.size() >= forget_at_) forget();
   ended_.push_back({change.particle, change.before, time, simulation_.model().gravity});
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/dynamics/observer.h"
@@ -13,10 +15,10 @@ template <int D>
 class FlightRecorder : public Observer<D> {
  public:
   /// Watches a simulation from now on and keeps the flights of the last `span` > 0 of simulation
-  /// time.
-  FlightRecorder(Simulation<D>& simulation, double span);
-  /// Continues with the flights of the recorder `before`. The new simulation has the same particles
-  /// at the same time, possibly under other laws.
+  /// time: those of all particles, or `only` those of one.
+  FlightRecorder(Simulation<D>& simulation, double span, std::optional<std::uint32_t> only = {});
+  /// Continues with the flights of the recorder `before`, which are those of the same particles.
+  /// The new simulation has the same particles at the same time, possibly under other laws.
   FlightRecorder(Simulation<D>& simulation, double span, FlightRecorder&& before);
 
   void on_collision(const PairCollision<D>& collision) override;
@@ -48,13 +50,15 @@ class FlightRecorder : public Observer<D> {
     }
   };
 
+  bool keeps(std::uint32_t particle) const { return !only_ || *only_ == particle; }
   void end_flight(const ParticleChange<D>& change, double time);
   void forget();
   void add_piece(std::vector<FlightPiece>& pieces, const Ended& flight) const;
 
   const Simulation<D>& simulation_;
   double span_;
-  double since_;  // on the moving base
+  std::optional<std::uint32_t> only_;  // absent: all particles
+  double since_;                       // on the moving base
   std::vector<Ended> ended_;
   std::size_t forget_at_ = 0;  // number of flights at which old ones are removed
 };

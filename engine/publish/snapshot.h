@@ -57,6 +57,7 @@ struct Snapshot {
   std::vector<Eigen::Quaterniond> orientations;
   double exposure = 0.0;             ///< exposure time, which ends at `time`; 0: an instant
   std::vector<FlightPiece> flights;  ///< of the exposure and of trails; empty: not observed
+  std::vector<FlightPiece> traced;   ///< of View::tracer; empty: not observed
   std::optional<FieldMap> field;     ///< averaged over the view's window; absent: not requested
   std::optional<ArrowMap> arrows;    ///< averaged over the view's window; absent: not requested
   double temperature = 0.0;          ///< granular temperature T = (m/DN) sum v^2

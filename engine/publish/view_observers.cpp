@@ -14,6 +14,7 @@ ViewObservers<D>::ViewObservers(Simulation<D>& simulation, const View& view, dou
     : view_(view), exposure_(exposure) {
   if (view.shows_averages()) watch_field(simulation, before);
   if (exposure > 0.0 || view.trails) watch_flights(simulation, before);
+  if (view.tracer) watch_tracer(simulation, before);
   if (simulation.model().spins) watch_spins(simulation, before);
 }
 
@@ -27,8 +28,10 @@ ViewObservers<D>::ViewObservers(Simulation<D>& simulation, const View& view, dou
     field_.emplace(simulation, view, ArchiveReader(averages, "averages"));
   }
   if (exposure > 0.0 || view.trails) watch_flights(simulation, nullptr);
+  if (view.tracer) watch_tracer(simulation, nullptr);
   if (simulation.model().spins) watch_spins(simulation, nullptr);
   if (flights_) saved(*flights_);
+  if (traced_) saved(*traced_);
   if (rotations_) saved(*rotations_);
   saved.finish();
 }
@@ -41,6 +44,7 @@ std::string ViewObservers<D>::save() {
     writer(averages);
   }
   if (flights_) writer(*flights_);
+  if (traced_) writer(*traced_);
   if (rotations_) writer(*rotations_);
   return writer.written();
 }
@@ -75,6 +79,16 @@ void ViewObservers<D>::watch_flights(Simulation<D>& simulation, ViewObservers* b
 }
 
 template <int D>
+void ViewObservers<D>::watch_tracer(Simulation<D>& simulation, ViewObservers* before) {
+  const auto& [particle, time] = *view_.tracer;
+  if (before && before->traced_ && before->view_.tracer->particle == particle) {
+    traced_.emplace(simulation, time, std::move(*before->traced_));
+  } else {
+    traced_.emplace(simulation, time, static_cast<std::uint32_t>(particle));
+  }
+}
+
+template <int D>
 void ViewObservers<D>::watch_spins(Simulation<D>& simulation, ViewObservers* before) {
   if (before && before->rotations_) {
     rotations_.emplace(simulation, std::move(*before->rotations_));
@@ -100,6 +114,7 @@ template <int D>
 void ViewObservers<D>::publish(Snapshot& snapshot) {
   if (field_) field_->publish(snapshot);
   if (rotations_) publish_rotations(rotations_->rotations(), snapshot);
+  if (traced_) snapshot.traced = traced_->pieces();
   if (!flights_) return;
   snapshot.exposure = std::min(exposure_, flights_->reach());
   snapshot.flights = flights_->pieces();

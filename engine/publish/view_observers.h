@@ -41,13 +41,15 @@ class ViewObservers {
  private:
   void watch_field(Simulation<D>& simulation, ViewObservers* before);
   void watch_flights(Simulation<D>& simulation, ViewObservers* before);
+  void watch_tracer(Simulation<D>& simulation, ViewObservers* before);
   void watch_spins(Simulation<D>& simulation, ViewObservers* before);
 
   View view_;
   double exposure_;
   std::optional<LiveField<D>> field_;
   std::optional<FlightRecorder<D>> flights_;
-  std::optional<Rotations<D>> rotations_;  // present if particles spin
+  std::optional<FlightRecorder<D>> traced_;  // of the tracer
+  std::optional<Rotations<D>> rotations_;    // present if particles spin
 };
 
 }  // namespace clatter

@@ -86,6 +86,14 @@ struct Slab {
   double from = 0.0, to = 1.0;  ///< positions of the planes, from < to
 };
 
+/// A particle with a colour of its own, whose path is drawn.
+struct Tracer {
+  int particle = 0;    ///< its number; beyond the last one: no particle
+  double time = 20.0;  ///< duration of the path, > 0
+
+  bool operator==(const Tracer&) const = default;
+};
+
 /// A plane across an axis, on which the heatmap of spheres is drawn.
 struct Slice {
   Axis axis = Axis::Z;
@@ -155,8 +163,9 @@ struct View {
   bool overlay = true;             ///< time, title, captions, colour bar, scale bar
   std::vector<OverlayPart> overlay_hides = {};  ///< parts that the overlay does not have
   std::vector<FilmPlot> plots = {};             ///< beside the gas in films, at most kMostPlots
-  std::optional<double> trails;  ///< duration of the particles' trails, > 0; absent: none
-  std::optional<double> card;    ///< seconds of the title card at a film's start, > 0; absent: none
+  std::optional<double> trails;       ///< duration of the particles' trails, > 0; absent: none
+  std::optional<Tracer> tracer = {};  ///< absent: none
+  std::optional<double> card;  ///< seconds of the title card at a film's start, > 0; absent: none
   /// Direction to the viewer of spheres, in degrees: 0, 0 is along z, from the front; azimuth turns
   /// about the y axis towards x, elevation raises the viewer towards y.
   double azimuth = 30.0, elevation = 20.0;

@@ -83,6 +83,20 @@ void visit_slab(Visitor& io, Slab& slab) {
            Limits{.lowest = slab.from, .highest = kMaxLength, .above = true}, kRequired);
 }
 
+inline constexpr auto kTracerKeys = key_table(
+    "view render",
+    {{"particle", "1",
+      "Number of the particle, from 0. It has the colour of the letters, and its path is drawn "
+      "above the others. A number beyond the last particle has no path."},
+     {"time", "t", "Duration of the path, which fades with age."}});
+
+/// The keys of [view.tracer].
+template <class Visitor>
+void visit_tracer(Visitor& io, Tracer& tracer) {
+  io.value(kTracerKeys.at("particle"), tracer.particle, between(0, kMaxCount), kRequired);
+  io.value(kTracerKeys.at("time"), tracer.time, between(kMinViewTime, kMaxViewTime));
+}
+
 inline constexpr auto kSliceKeys =
     key_table("view render", {{"axis", "", "Axis perpendicular to the slice."},
                               {"position", "a", "Position of the slice on this axis."}});
@@ -197,6 +211,7 @@ void visit_view(Visitor& io, View& view, int dimension) {
     io.table("slab", view.slab, [](auto& io, Slab& slab) { visit_slab(io, slab); });
     io.list("slices", view.slices, [](auto& io, Slice& slice) { visit_slice(io, slice); });
   }
+  io.table("tracer", view.tracer, [](auto& io, Tracer& tracer) { visit_tracer(io, tracer); });
   io.table("lecture", [&](auto& io) { visit_lecture(io, view.lecture); });
   io.list("captions", view.captions,
           [](auto& io, Caption& caption) { visit_caption(io, caption); });

@@ -78,9 +78,10 @@ class Collector {
 
 }  // namespace
 
-std::vector<Chord> chords(const Snapshot& snapshot, const Projection& projection, double time) {
+std::vector<Chord> chords(const Snapshot& snapshot, const std::vector<FlightPiece>& flights,
+                          const Projection& projection, double time) {
   Collector collector(snapshot, projection);
-  for (const FlightPiece& piece : snapshot.flights) {
+  for (const FlightPiece& piece : flights) {
     const double from = std::max(piece.from, -time);
     if (from < piece.to) collector.add(piece, from, piece.to);
   }

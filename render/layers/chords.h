@@ -15,8 +15,9 @@ struct Chord {
   double from = 0.0, to = 0.0;                ///< times relative to the snapshot, from < to <= 0
 };
 
-/// The visible paths of the disks and their periodic images over the last `time`. Chords deviate
-/// from a parabola by at most 1/16 pixel.
-std::vector<Chord> chords(const Snapshot& snapshot, const Projection& projection, double time);
+/// The visible paths of the disks of these flights and of their periodic images over the last
+/// `time`. Chords deviate from a parabola by at most 1/16 pixel.
+std::vector<Chord> chords(const Snapshot& snapshot, const std::vector<FlightPiece>& flights,
+                          const Projection& projection, double time);
 
 }  // namespace clatter

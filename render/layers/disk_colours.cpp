@@ -36,6 +36,7 @@ double disk_value(const Snapshot& snapshot, ColourBy colour_by, std::size_t i, c
 }
 
 Colour DiskColours::of(const Snapshot& snapshot, std::size_t i) const {
+  if (tracer == i) return traced;
   return colour_by == ColourBy::None ? plain : scale(disk_value(snapshot, colour_by, i, away));
 }
 

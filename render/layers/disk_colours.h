@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "engine/publish/snapshot.h"
 #include "render/layers/light_layer.h"
@@ -27,7 +28,9 @@ struct DiskColours {
   ColourScale scale;  ///< colours of the values
   Colour plain;       ///< colour for ColourBy::None
   Blending blending = Blending::Light;
-  VecX away = {};  ///< of spheres: unit vector away from the viewer
+  VecX away = {};                          ///< of spheres: unit vector away from the viewer
+  std::optional<std::size_t> tracer = {};  ///< number of the disk with the colour `traced`
+  Colour traced = {};
 
   /// The colour of disk `i`.
   Colour of(const Snapshot& snapshot, std::size_t i) const;

@@ -115,7 +115,7 @@ void DiskLayer::cover_paths(const Snapshot& snapshot, const Projection& projecti
   constexpr double kMaxSteps = 1e6;
   const double reach = reach_pixels(snapshot, projection);
   const Vec2 high(projection.drawn().width + reach, projection.drawn().height + reach);
-  for (const Chord& chord : chords(snapshot, projection, snapshot.exposure)) {
+  for (const Chord& chord : chords(snapshot, snapshot.flights, projection, snapshot.exposure)) {
     const Colour colour = colours.of(snapshot, chord.disk);
     const Vec2 way = chord.end - chord.start;
     const int steps = static_cast<int>(std::min(way.norm() / kStep, kMaxSteps)) + 1;

@@ -89,6 +89,18 @@ void Renderer::draw(const Snapshot& snapshot, const Camera& camera, Size size, c
   if (view.overlay) overlay_.draw(snapshot, projection, view, legends, text);
 }
 
+DiskColours Renderer::disk_colours(const View& view, const Legends& legends,
+                                   const ThemeColours& theme) const {
+  DiskColours colours;
+  colours.colour_by = view.colour_by;
+  if (legends.disks) colours.scale = legends.disks->scale;
+  colours.plain = theme.disk;
+  colours.blending = transparent_ ? Blending::Encoded : Blending::Light;
+  if (view.tracer) colours.tracer = static_cast<std::size_t>(view.tracer->particle);
+  colours.traced = theme.text;
+  return colours;
+}
+
 void Renderer::draw_world(const Snapshot& snapshot, const Projection& projection, const View& view,
                           const Legends& legends, const ThemeColours& theme) {
   clear(projection, theme);
@@ -99,12 +111,14 @@ void Renderer::draw_world(const Snapshot& snapshot, const Projection& projection
   pause(projection);
   if (view.grid) grid_.draw(snapshot, projection, thin(theme.static_wall, kGrid));
   walls_.draw(snapshot, projection, wall_colours(theme, legends, view, 2));
-  const DiskColours colours{view.colour_by, legends.disks ? legends.disks->scale : ColourScale{},
-                            theme.disk, transparent_ ? Blending::Encoded : Blending::Light};
+  const DiskColours colours = disk_colours(view, legends, theme);
   blend_in_light(true);
-  if (view.trails) trails_.draw(snapshot, projection, colours, *view.trails);
+  if (view.trails) trails_.draw(snapshot, snapshot.flights, projection, colours, *view.trails);
   pause(projection);
   disks_.draw(snapshot, projection, colours);
+  if (view.tracer) {
+    trails_.draw(snapshot, snapshot.traced, projection, colours, view.tracer->time);
+  }
   blend_in_light(false);
   pause(projection);
   if (legends.arrows) {
@@ -141,11 +155,10 @@ void Renderer::clear(const Projection& projection, const ThemeColours& theme) {
 
 void Renderer::draw_spheres(const Snapshot& snapshot, const Projection& projection,
                             const View& view, const Legends& legends, const ThemeColours& theme) {
-  const Blending blending = transparent_ ? Blending::Encoded : Blending::Light;
-  if (!space_) space_.emplace(*gl_, blending);
   const Eye eye(projection);
-  const DiskColours colours{view.colour_by, legends.disks ? legends.disks->scale : ColourScale{},
-                            theme.disk, blending, -eye.axes().row(2).transpose()};
+  DiskColours colours = disk_colours(view, legends, theme);
+  colours.away = -eye.axes().row(2).transpose();
+  if (!space_) space_.emplace(*gl_, colours.blending);
   const WallColours walls = wall_colours(theme, legends, view, 3);
   clear(projection, theme);
   gl_->Enable(GL_DEPTH_TEST);
@@ -191,7 +204,14 @@ void Renderer::draw_lines(const Snapshot& snapshot, const Projection& projection
   LineLayer& lines = space_->lines;
   const double width = std::max(1.0 * projection.samples, 0.0025 * projection.drawn().height);
   if (view.trails) {
-    lines.draw(trail_lines(snapshot, colours, *view.trails, width), snapshot.box, projection, eye);
+    lines.draw(trail_lines(snapshot, snapshot.flights, colours, *view.trails, width), snapshot.box,
+               projection, eye);
+  }
+  if (view.tracer) {
+    gl_->Disable(GL_DEPTH_TEST);
+    lines.draw(trail_lines(snapshot, snapshot.traced, colours, view.tracer->time, width),
+               snapshot.box, projection, eye);
+    gl_->Enable(GL_DEPTH_TEST);
   }
   if (legends.arrows) {
     const double scale = projection.samples * legends.arrows->pixels / projection.scale();

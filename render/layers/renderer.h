@@ -70,6 +70,8 @@ class Renderer {
   void blend_in_light(bool on);
   void clear(const Projection& projection, const ThemeColours& theme);
   void pause(const Projection& projection) const;
+  DiskColours disk_colours(const View& view, const Legends& legends,
+                           const ThemeColours& theme) const;
   void draw_world(const Snapshot& snapshot, const Projection& projection, const View& view,
                   const Legends& legends, const ThemeColours& theme);
   void draw_exposure(const Snapshot& snapshot, const Projection& projection, const View& view,

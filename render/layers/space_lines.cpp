@@ -6,11 +6,11 @@
 
 namespace clatter {
 
-std::vector<Line> trail_lines(const Snapshot& snapshot, const DiskColours& colours, double time,
-                              double width) {
+std::vector<Line> trail_lines(const Snapshot& snapshot, const std::vector<FlightPiece>& flights,
+                              const DiskColours& colours, double time, double width) {
   std::vector<Line> lines;
   constexpr double kMaxParts = 256.0;  // of a flight
-  for (const FlightPiece& piece : snapshot.flights) {
+  for (const FlightPiece& piece : flights) {
     const double from = std::max(piece.from, -time);
     if (from >= piece.to) continue;
     // Parts of at most a diameter, so that those beyond a periodic border move to the other end.

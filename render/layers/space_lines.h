@@ -8,10 +8,10 @@
 
 namespace clatter {
 
-/// The paths of the spheres over the last `time`, in the colours of the spheres. They fade out with
-/// age. `width` is in drawn pixels.
-std::vector<Line> trail_lines(const Snapshot& snapshot, const DiskColours& colours, double time,
-                              double width);
+/// The paths of the spheres of these flights over the last `time`, in the colours of the spheres.
+/// They fade out with age. `width` is in drawn pixels.
+std::vector<Line> trail_lines(const Snapshot& snapshot, const std::vector<FlightPiece>& flights,
+                              const DiskColours& colours, double time, double width);
 
 /// The arrows of a map, each centred on its cell. `scale` is the length of an arrow in world units
 /// per unit of its value; no arrow is longer than two cells. `width` is in drawn pixels.

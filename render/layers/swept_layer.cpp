@@ -14,7 +14,7 @@ void SweptLayer::draw(const Snapshot& snapshot, const Projection& projection,
   // The shader divides by the length of the way, so a disk at rest gets an invisibly short way.
   constexpr double kShortest = 1.0 / 32.0;  // pixels
   drawn_.clear();
-  for (const Chord& chord : chords(snapshot, projection, snapshot.exposure)) {
+  for (const Chord& chord : chords(snapshot, snapshot.flights, projection, snapshot.exposure)) {
     const Vec2 way = chord.end - chord.start;
     const double length = std::max(way.norm(), kShortest);
     const Vec2 along = way.norm() > 0.0 ? Vec2(way.normalized()) : Vec2(1.0, 0.0);

@@ -10,11 +10,11 @@ TrailLayer::TrailLayer(const Gl& gl)
     : gl_(&gl), program_(gl, "trail.vert", "trail.frag"), light_(gl), strokes_(gl) {}
 
 // GL_MAX blending: overlapping lines show the stronger one, so joints are invisible.
-void TrailLayer::draw(const Snapshot& snapshot, const Projection& projection,
-                      const DiskColours& colours, double time) {
+void TrailLayer::draw(const Snapshot& snapshot, const std::vector<FlightPiece>& flights,
+                      const Projection& projection, const DiskColours& colours, double time) {
   constexpr double kOpacity = 0.6;  // at the disk
   drawn_.clear();
-  for (const Chord& chord : chords(snapshot, projection, time)) {
+  for (const Chord& chord : chords(snapshot, flights, projection, time)) {
     const Vec2 opacities = {kOpacity * (1.0 + chord.from / time),
                             kOpacity * (1.0 + chord.to / time)};
     drawn_.push_back({{chord.start.cast<float>(), chord.end.cast<float>(), opacities.cast<float>()},

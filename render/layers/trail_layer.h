@@ -14,9 +14,10 @@ class TrailLayer {
  public:
   explicit TrailLayer(const Gl& gl);
 
-  /// Draws the flights of the last `time` > 0 into the bound framebuffer, which must be sRGB.
-  void draw(const Snapshot& snapshot, const Projection& projection, const DiskColours& colours,
-            double time);
+  /// Draws the parts of flights in the last `time` > 0 into the bound framebuffer, which must be
+  /// sRGB.
+  void draw(const Snapshot& snapshot, const std::vector<FlightPiece>& flights,
+            const Projection& projection, const DiskColours& colours, double time);
 
  private:
   const Gl* gl_;

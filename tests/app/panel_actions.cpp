@@ -40,6 +40,7 @@ Scene uneven_disks() {
   view.grid = true;
   view.overlay = false;
   view.trails = 0.25;
+  view.tracer = Tracer{7, 3.5};
   return scene;
 }
 

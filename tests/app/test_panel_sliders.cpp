@@ -54,6 +54,8 @@ const std::vector<SliderMeaning> kSliders = {
     {"bulk_drive.kick_speed", "/bulk_drive/kick_speed", 0.0, 1.0, "Kicks s 0.220 a/t",
      "Homogeneous"},
     {"view.trails", "/view/trails", 0.0, 5.0, "Trails 0.25 t", "paths are drawn"},
+    {"view.tracer.time", "/view/tracer/time", 0.1, 1000.0, "Path of the tracer 3.5 t",
+     "path is drawn", true},
     {"collapse.contact_time", "/collapse/contact_time", 1e-9, 0.1, "Duration t_c 2.0e-04 t",
      "TC model", true},
     {"view.interval", "/view/interval", 0.01, 4.0, "Snapshots every 0.300 t",

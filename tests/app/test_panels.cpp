@@ -40,6 +40,7 @@ TEST_CASE("Panels: the list of keys has each key beside its action") {
                "C N compare: a copy of the gas beside it; the next gas",
                "T goal and suggestions of the scene",
                "M colour range of the particles: fixed or automatic",
+               "V path of the picked particle",
                "Tab hide or show the panels",
                "L lecture: large type, three sliders and a plot",
                "D K W lecture: pen, pointer with a trail, stopwatch",
@@ -122,6 +123,8 @@ TEST_CASE("Panels: every name is beside the value of its own key, in its unit") 
                                "{ heat flux }",
                                "Trails 0.25 t",
                                "{ 0.25 }",
+                               "Path of the tracer 3.5 t",
+                               "{ 3.5 }",
                                "Theme",
                                "{ light }",
                                "[x] Grid",
@@ -173,9 +176,11 @@ TEST_CASE("Panels: a picked disk shows its state, its last and its next collisio
   });
   check_lines(driver.lines(), {"Disk 1", "position 2.50, 5.25", "velocity -3.000, 4.000",
                                "speed 5.000", "spin -0.625", "last collision t = 11.5000, top wall",
-                               "next collision t = 12.2500, disk 2", "double-click to follow"});
+                               "next collision t = 12.2500, disk 2", "double-click to follow",
+                               "V shows or hides its path"});
   follows = true;
-  CHECK(driver.lines().back() == "followed; Esc stops following");
+  const auto lines = driver.lines();
+  CHECK(lines[lines.size() - 2] == "followed; Esc stops following");
 }
 
 TEST_CASE("Panels: a picked sphere shows three components") {
@@ -188,11 +193,11 @@ TEST_CASE("Panels: a picked sphere shows three components") {
   PanelDriver driver(Scene{}, [&](Session&, Controls&) {
     particle_label(frame, 0, false, {100.0f, 100.0f}, {{0.0f, 0.0f}, {400.0f, 400.0f}});
   });
-  check_lines(
-      driver.lines(),
-      {"Sphere 0", "position 2.50, 5.25, 7.12", "velocity -3.000, 4.000, 12.000", "speed 13.000",
-       "spin -0.625, 0.500, 0.250", "last collision t = 11.5000, front wall",
-       "next collision t = 12.2500, sphere 2", "double-click to follow"});
+  check_lines(driver.lines(),
+              {"Sphere 0", "position 2.50, 5.25, 7.12", "velocity -3.000, 4.000, 12.000",
+               "speed 13.000", "spin -0.625, 0.500, 0.250",
+               "last collision t = 11.5000, front wall", "next collision t = 12.2500, sphere 2",
+               "double-click to follow", "V shows or hides its path"});
 }
 
 TEST_CASE("Panels: the light of health is red after the run has stopped by itself") {

@@ -266,6 +266,21 @@ TEST_CASE("Window: the wheel zooms about the mouse, and a followed sphere is in 
   CHECK(followed);
 }
 
+TEST_CASE("Window: V shows the path of the picked sphere, and hides it") {
+  const Scenes scenes;
+  const GuiDriver driver(scenes.rows());
+  CHECK(picked_in_the_middle(driver) == 0);
+  driver.key("v");
+  const Scene traced = saved_scene(driver);
+  REQUIRE(traced.view.tracer);
+  CHECK(traced.view.tracer->particle == 0);
+  CHECK(traced.view.tracer->time == doctest::Approx(20.0 * traced.view.speed));
+  driver.key("v");
+  CHECK_FALSE(saved_scene(driver).view.tracer);
+  driver.key("ctrl+z");
+  CHECK(saved_scene(driver).view.tracer);
+}
+
 TEST_CASE("Window: spheres become disks, and undo starts the former scene") {
   const Scenes scenes;
   const GuiDriver driver(scenes.gas() + " --set 'view.slab={axis=\"y\",from=1.0,to=5.0}'",

@@ -105,6 +105,34 @@ void check_across_changes() {
 }
 
 template <int D>
+void check_one_particle() {
+  static constexpr std::uint32_t kTraced = 17;
+  Scene scene = falling_gas(D);
+  const auto before = simulation_of<D>(scene, 9);
+  FlightRecorder<D> all(*before, 6.0), one(*before, 6.0, kTraced);
+  const auto check = [](const FlightRecorder<D>& whole, const FlightRecorder<D>& traced) {
+    std::vector<FlightPiece> expected = whole.pieces();
+    std::erase_if(expected, [](const FlightPiece& piece) { return piece.particle != kTraced; });
+    const std::vector<FlightPiece> pieces = traced.pieces();
+    CHECK(pieces.size() > 5);
+    REQUIRE(pieces.size() == expected.size());
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      CHECK(pieces[i].particle == kTraced);
+      CHECK(pieces[i].from == expected[i].from);
+      CHECK(pieces[i].to == expected[i].to);
+      CHECK(pieces[i].position == expected[i].position);
+    }
+  };
+  before->run_until(5.0);
+  check(all, one);
+  scene.gravity = Vec<3>(0.5, 0.9, -0.3).head<D>();
+  Simulation<D> after(model_of<D>(scene, 9), before->save());
+  FlightRecorder<D> all_after(after, 6.0, std::move(all)), one_after(after, 6.0, std::move(one));
+  after.run_until(9.0);
+  check(all_after, one_after);
+}
+
+template <int D>
 void check_checkpoint() {
   const Scene scene = falling_gas(D);
   const auto simulation = simulation_of<D>(scene, 8);
@@ -139,6 +167,11 @@ TEST_CASE("FlightRecorder: a run that is recorded has the same hash") {
 TEST_CASE("FlightRecorder: paths continue across changes of laws and of their span") {
   check_across_changes<2>();
   check_across_changes<3>();
+}
+
+TEST_CASE("FlightRecorder: the path of one particle is its part of all paths") {
+  check_one_particle<2>();
+  check_one_particle<3>();
 }
 
 TEST_CASE("FlightRecorder: a checkpoint keeps the paths") {

@@ -282,8 +282,20 @@ TEST_CASE("ScheduledRun: averages resumed from a checkpoint equal one run, to th
   }
 }
 
+static void check_same_flights(const std::vector<FlightPiece>& found,
+                               const std::vector<FlightPiece>& wanted) {
+  REQUIRE(found.size() == wanted.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    CHECK(found[i].particle == wanted[i].particle);
+    CHECK(found[i].from == wanted[i].from);
+    CHECK(found[i].position == wanted[i].position);
+  }
+}
+
 TEST_CASE("ScheduledRun: flights and angles resumed from a checkpoint equal one run") {
-  Scene scene = load_scene("rough_driven", {{"view.field", "density"}, {"view.trails", "0.8"}});
+  Scene scene = load_scene("rough_driven", {{"view.field", "density"},
+                                            {"view.trails", "0.8"},
+                                            {"view.tracer", "{ particle = 5, time = 1.7 }"}});
   scene.changes = {{.time = 2.3, .set = {{"gravity.acceleration", "[0.0, -1.0]"}}}};
   ScheduledRun<2> whole(scene, 15);
   whole.show(scene.view, 0.1);
@@ -297,12 +309,9 @@ TEST_CASE("ScheduledRun: flights and angles resumed from a checkpoint equal one 
     const Snapshot wanted = whole.snapshot(), found = resumed.snapshot();
     CHECK(found.exposure == wanted.exposure);
     CHECK(found.angles == wanted.angles);
-    REQUIRE(found.flights.size() == wanted.flights.size());
-    for (std::size_t i = 0; i < found.flights.size(); ++i) {
-      CHECK(found.flights[i].particle == wanted.flights[i].particle);
-      CHECK(found.flights[i].from == wanted.flights[i].from);
-      CHECK(found.flights[i].position == wanted.flights[i].position);
-    }
+    check_same_flights(found.flights, wanted.flights);
+    check_same_flights(found.traced, wanted.traced);
+    CHECK(wanted.traced.front().particle == 5);
   }
   View other = scene.view;
   other.trails.reset();

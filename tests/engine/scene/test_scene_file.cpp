@@ -142,6 +142,7 @@ void check_equal(const Scene& a, const Scene& b) {
   CHECK(a.view.grid == b.view.grid);
   CHECK(a.view.overlay == b.view.overlay);
   CHECK(a.view.trails == b.view.trails);
+  CHECK(a.view.tracer == b.view.tracer);
   CHECK(a.view.card == b.view.card);
   REQUIRE(a.view.camera.size() == b.view.camera.size());
   for (std::size_t k = 0; k < a.view.camera.size(); ++k) {
@@ -245,6 +246,7 @@ Scene unusual_scene() {
       .overlay_hides = {OverlayPart::ScaleBar, OverlayPart::Time, OverlayPart::Captions},
       .plots = {FilmPlot::HeatFluxProfile, FilmPlot::Energy, FilmPlot::Velocities},
       .trails = 0.75,
+      .tracer = Tracer{41, 0.3},
       .card = 1e-3,
       .captions = {{.text = "T_x \\_", .from = {}, .to = 0.1}, {.text = "", .from = 0.3, .to = {}}},
       .pace = {{0.0, 1e-6}, {7.5, 2.0}},

@@ -215,6 +215,39 @@ TEST_CASE("Renderer: blur, trails and marks look the same with several samples a
   }
 }
 
+TEST_CASE("Renderer: the tracer has the colour of the letters, and its path is above the others") {
+  const auto context = open_context(Backend::Osmesa);
+  View view;
+  view.colour_by = ColourBy::None;
+  view.overlay = false;
+  view.tracer = Tracer{1, 2.0};
+  const Vec2 centre(7.0, 5.0);
+  Snapshot snapshot;
+  snapshot.box = Vec2(10.0, 10.0);
+  snapshot.walls.fill(Wall{});
+  snapshot.positions = as_columns(std::vector{Vec2(3.0, 5.0), centre});
+  snapshot.velocities = Vectors::Zero(2, 2);
+  // Through the first disk.
+  snapshot.traced = {{1, -1.0, 0.0, Vec2(2.0, 5.0), Vec2(5.0, 0.0), Vec2(0.0, 0.0)}};
+  constexpr Size kSize{200, 200};
+  Renderer renderer(context->gl());
+  const auto drawn = [&] {
+    return draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 10.0}, kSize, view);
+  };
+  const Image traced = drawn();
+  CHECK(pixel(traced, 140, 100) == kDarkTheme.text);
+  CHECK(pixel(traced, 60, 92) == kDarkTheme.disk);
+  view.tracer->particle = 2;  // none
+  snapshot.traced.clear();
+  const Image plain = drawn();
+  CHECK(pixel(plain, 140, 100) == kDarkTheme.disk);
+  const auto excess = [&](int x) { return pixel(traced, x, 100).red - pixel(plain, x, 100).red; };
+  CHECK(excess(60) > 10);
+  CHECK(excess(100) > excess(45));  // it fades with age
+  CHECK(excess(45) > 0);
+  CHECK(excess(20) == 0);
+}
+
 namespace {
 
 constexpr Size kSpaceSize{800, 800};  // 80 pixels per world unit, and lines of 2 pixels

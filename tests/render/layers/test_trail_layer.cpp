@@ -11,7 +11,8 @@ namespace {
 
 Image drawn(const Gl& gl, const Snapshot& snapshot, double time) {
   const Canvas canvas = blank_canvas(gl, kUnitSize, kClear);
-  TrailLayer(gl).draw(snapshot, kUnitProjection, {ColourBy::None, {}, kDarkTheme.disk}, time);
+  TrailLayer(gl).draw(snapshot, snapshot.flights, kUnitProjection,
+                      {ColourBy::None, {}, kDarkTheme.disk}, time);
   return canvas.read();
 }
 
