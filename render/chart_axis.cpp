@@ -7,28 +7,13 @@
 #include <cmath>
 
 #include "render/colour_range.h"
+#include "render/typeset_number.h"
 
 namespace clatter {
 
 namespace {
 
 constexpr double kSlack = 1e-9;  // for rounding errors of shares and logarithms
-
-// A power of ten with its exponent in superscript digits.
-std::string power_text(int exponent) {
-  constexpr std::array<const char*, 10> kDigits = {"⁰", "¹", "²", "³", "⁴",
-                                                   "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text = exponent < 0 ? "10⁻" : "10";
-  for (const char digit : std::to_string(std::abs(exponent))) text += kDigits[digit - '0'];
-  return text;
-}
-
-// "2×10⁻⁵" for "2e-05".
-std::string typeset(const std::string& number) {
-  const std::size_t e = number.find('e');
-  if (e == std::string::npos) return number;
-  return number.substr(0, e) + "×" + power_text(std::stoi(number.substr(e + 1)));
-}
 
 std::vector<double> multiples(double step, double low, double high) {
   std::vector<double> values;
@@ -52,7 +37,7 @@ std::vector<ChartTick> linear_ticks(double low, double high, int most) {
   std::vector<ChartTick> ticks;
   const std::vector<double> values = round_ticks(low, high, most);
   const double step = values[1] - values[0];
-  for (const double value : values) ticks.push_back({value, typeset(tick_text(value, step))});
+  for (const double value : values) ticks.push_back({value, tick_text(value, step)});
   // Minor ticks divide steps of 1 and 5 into five parts, and steps of 2 into four.
   const double mantissa = step / std::pow(10.0, std::floor(std::log10(step) + kSlack));
   const double part = step / (std::abs(mantissa - 2.0) < kSlack ? 4.0 : 5.0);

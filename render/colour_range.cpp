@@ -6,6 +6,8 @@
 #include <cmath>
 #include <functional>
 
+#include "render/typeset_number.h"
+
 namespace clatter {
 
 double robust_extent(std::vector<double> values) {
@@ -87,8 +89,8 @@ std::string tick_text(double value, double step) {
   const bool plain = std::abs(place) <= 4.0;
   if (magnitude == 0.0 && !plain) return "0";
   const int digits = static_cast<int>(std::max(0.0, plain ? -place : order_of(magnitude) - place));
-  const std::string text =
-      plain ? fmt::format("{:.{}f}", magnitude, digits) : fmt::format("{:.{}e}", magnitude, digits);
+  const std::string text = plain ? fmt::format("{:.{}f}", magnitude, digits)
+                                 : typeset_number(fmt::format("{:.{}e}", magnitude, digits));
   return value < 0.0 ? "−" + text : text;
 }
 

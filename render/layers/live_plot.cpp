@@ -9,6 +9,7 @@
 #include "engine/scene/text.h"
 #include "render/colour_range.h"
 #include "render/layers/fonts.h"
+#include "render/typeset_number.h"
 
 namespace clatter {
 
@@ -29,9 +30,9 @@ std::vector<Tick> ticks_of(const PlotScale& scale, int count) {
       const double step = places.size() > 1 ? places[1] - places[0] : 1.0;
       ticks.push_back({share, tick_text(place, step)});
     } else if (scale.high - scale.low < 1.5) {
-      ticks.push_back({share, fmt::format("{:.2g}", std::pow(10.0, place))});
+      ticks.push_back({share, typeset_number(fmt::format("{:.2g}", std::pow(10.0, place)))});
     } else if (place == std::round(place)) {
-      ticks.push_back({share, fmt::format("{:g}", std::pow(10.0, place))});
+      ticks.push_back({share, typeset_number(fmt::format("{:g}", std::pow(10.0, place)))});
     }
   }
   return ticks;

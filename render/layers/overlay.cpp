@@ -11,6 +11,7 @@
 #include "render/layers/grid_layer.h"
 #include "render/layers/marked_line.h"
 #include "render/layers/wall_layer.h"
+#include "render/typeset_number.h"
 
 namespace clatter {
 
@@ -187,8 +188,8 @@ std::vector<Figure> figures_of(const Snapshot& snapshot, const View& view,
     if (!view.hides(part)) figures.push_back(figure);
   };
   add(OverlayPart::Time, {formatted("t = %.2f", snapshot.time), "t = 0000.00", theme.ink()});
-  add(OverlayPart::Temperature,
-      {formatted("T = %#.3g", snapshot.temperature), "T = 0.0000", theme.faint_ink()});
+  add(OverlayPart::Temperature, {typeset_number(formatted("T = %#.3g", snapshot.temperature)),
+                                 "T = 0.0000", theme.faint_ink()});
   add(OverlayPart::Collisions,
       {grouped(snapshot.collisions) + " collisions", "", theme.faint_ink()});
   return figures;

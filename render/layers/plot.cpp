@@ -9,6 +9,7 @@
 
 #include "render/layers/fonts.h"
 #include "render/layers/gui_picture.h"
+#include "render/typeset_number.h"
 
 namespace clatter {
 
@@ -106,7 +107,7 @@ class PanelDrawing {
   }
 
   void draw_number(double value, double share, bool across) {
-    const std::string text = fmt::format("{:g}", value);
+    const std::string text = typeset_number(fmt::format("{:g}", value));
     const ImVec2 extent = text_extent(*fonts_.small, text);
     const float gap = 0.4f * fonts_.unit();
     ImVec2 at = across ? place(share, 0.0) : place(0.0, share);

@@ -75,8 +75,8 @@ TEST_CASE("Colour range: ticks are round and say no more digits than they need")
   CHECK(close.size() <= 12);
   CHECK(tick_text(0.4, 0.2) == "0.4");
   CHECK(tick_text(-2.0, 1.0) == "−2");
-  CHECK(tick_text(3e-7, 1e-7) == "3e-07");
-  CHECK(tick_text(1.5e-16, 5e-17) == "1.5e-16");
+  CHECK(tick_text(3e-7, 1e-7) == "3×10⁻⁷");
+  CHECK(tick_text(1.5e-16, 5e-17) == "1.5×10⁻¹⁶");
   CHECK(tick_text(0.0, 5e-17) == "0");
   CHECK(tick_text(0.0, 0.2) == "0.0");
 }
