@@ -174,6 +174,11 @@ void view_panel(Session& session, Controls& controls) {
         controls, "view.range", disks ? "Range of the disks" : "Range of the spheres", view.range,
         usual.range, [&] { return colour_ends(session.frame().snapshot, view.colour_by); });
   }
+  changed |= controls.number({.key = "view.opacity",
+                              .name = "Opacity",
+                              .help = "Of the particles; 0: none, the heatmap alone",
+                              .format = "%.2f"},
+                             view.opacity, usual.opacity);
   changed |= choose_heatmap(session, controls, view);
   if (!disks && view.field) {
     changed |= choose_volume(session, controls, view);

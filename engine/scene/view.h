@@ -153,6 +153,7 @@ struct View {
   double speed = 1.0;     ///< simulation time per second of film, > 0
   Palette palette = Palette::Viridis;               ///< of the particles' magnitudes
   ColourRange range;                                ///< of the particles' colours
+  double opacity = 1.0;                             ///< of the particles, 0..1; 0: hidden
   FieldPalette field_palette = FieldPalette::Blue;  ///< of the heatmap's magnitudes
   FieldStyle field_style = FieldStyle::Smooth;      ///< of the heatmap; a volume has cells
   ColourRange field_range;                          ///< of the heatmap's colours

@@ -139,6 +139,10 @@ inline constexpr auto kViewKeys = key_table(
      {"range", "",
       "Range of the particles' colours. auto follows the picture in round steps. locked keeps the "
       "first range, in films that of their first averaging window."},
+     {"opacity", "1",
+      "Opacity of the particles with their spin marks: the picture is a weighted mean of pictures "
+      "with and without particles. Spheres therefore fade as one front surface. Trails and arrows "
+      "do not fade. 0: no particles."},
      {"field_palette", "",
       "Hues of the heatmap. Zero has the colour of the background. Particles stand out from all "
       "hues. Quantities with a sign are blue and red."},
@@ -191,6 +195,7 @@ void visit_view(Visitor& io, View& view, int dimension) {
   io.choice(kViewKeys.at("palette"), view.palette, kPalettes);
   const Limits colours = between(-ColourRange::kLargestEnd, ColourRange::kLargestEnd);
   io.value(kViewKeys.at("range"), view.range, colours);
+  io.value(kViewKeys.at("opacity"), view.opacity, between(0.0, 1.0));
   io.choice(kViewKeys.at("field_palette"), view.field_palette, kFieldPalettes);
   io.choice(kViewKeys.at("field_style"), view.field_style, kFieldStyles);
   io.value(kViewKeys.at("field_range"), view.field_range, colours);

@@ -59,6 +59,7 @@ Canvas::Target::Target(const Gl& gl, Size size, GLint format, const std::optiona
 Canvas::Canvas(const Gl& gl, Size size, GLint format, Depth depth)
     : gl_(&gl),
       size_(checked(gl, size)),
+      format_(format),
       depth_(depths_of(gl, size, depth)),
       stored_(gl, size, stored_format(gl, format), depth_) {}
 

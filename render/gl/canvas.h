@@ -25,6 +25,8 @@ class Canvas {
 
   /// Size in pixels.
   Size size() const { return size_; }
+  /// Format of the colours, as given.
+  GLint format() const { return format_; }
   /// Whether it has depths.
   Depth depth() const { return depth_ ? Depth::Buffer : Depth::None; }
   /// Makes this canvas the target of later draw calls.
@@ -59,6 +61,7 @@ class Canvas {
 
   const Gl* gl_;
   Size size_;
+  GLint format_;
   std::optional<Texture> depth_;
   Target stored_;
   std::optional<Target>

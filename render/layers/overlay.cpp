@@ -51,8 +51,11 @@ OverlayText shown_text(OverlayText text, const View& view) {
   return text;
 }
 
-Legends shown_legends(const Legends& legends, const View& view) {
-  return view.hides(OverlayPart::ColourBars) ? Legends{} : legends;
+// Hidden particles without trails have no colours to explain.
+Legends shown_legends(Legends legends, const View& view) {
+  if (view.hides(OverlayPart::ColourBars)) return {};
+  if (view.opacity == 0.0 && !view.trails) legends.disks.reset();
+  return legends;
 }
 
 // Whether there are figures or a scale bar below the box.

@@ -38,6 +38,15 @@ void move_to(Snapshot& snapshot, double time) {
   }
 }
 
+bool blurs_spheres(const Snapshot& snapshot) {
+  return snapshot.exposure > 0.0 && snapshot.box.size() == 3;
+}
+
+// Whether a picture is the sum of several.
+bool is_sum(const Snapshot& snapshot, const View& view) {
+  return view.opacity > 0.0 && (view.opacity < 1.0 || blurs_spheres(snapshot));
+}
+
 }  // namespace
 
 Renderer::Renderer(const Gl& gl, int samples, bool transparent, StopRequest stop)
@@ -81,8 +90,8 @@ void Renderer::draw(const Snapshot& snapshot, const Camera& camera, Size size, c
   gl_->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target);
   const bool disks = snapshot.box.size() == 2;
   const bool own_canvas = gl_->api == Api::Es;  // for blend_in_light()
-  if (samples_ == 1 && target != 0 && disks && !own_canvas) {
-    draw_world(snapshot, projection, view, legends, theme);
+  if (samples_ == 1 && target != 0 && disks && !own_canvas && !is_sum(snapshot, view)) {
+    draw_layers(snapshot, projection, view, legends, theme);
   } else {
     draw_averaged(snapshot, projection, view, legends, theme, static_cast<GLuint>(target));
   }
@@ -101,7 +110,17 @@ DiskColours Renderer::disk_colours(const View& view, const Legends& legends,
   return colours;
 }
 
-void Renderer::draw_world(const Snapshot& snapshot, const Projection& projection, const View& view,
+// The picture without the overlay.
+void Renderer::draw_layers(const Snapshot& snapshot, const Projection& projection, const View& view,
+                           const Legends& legends, const ThemeColours& theme) {
+  if (snapshot.box.size() == 2) {
+    draw_disks(snapshot, projection, view, legends, theme);
+  } else {
+    draw_spheres(snapshot, projection, view, legends, theme);
+  }
+}
+
+void Renderer::draw_disks(const Snapshot& snapshot, const Projection& projection, const View& view,
                           const Legends& legends, const ThemeColours& theme) {
   clear(projection, theme);
   if (legends.field && has_values(*snapshot.field)) {
@@ -115,7 +134,7 @@ void Renderer::draw_world(const Snapshot& snapshot, const Projection& projection
   blend_in_light(true);
   if (view.trails) trails_.draw(snapshot, snapshot.flights, projection, colours, *view.trails);
   pause(projection);
-  disks_.draw(snapshot, projection, colours);
+  if (view.opacity > 0.0) disks_.draw(snapshot, projection, colours);
   if (view.tracer) {
     trails_.draw(snapshot, snapshot.traced, projection, colours, view.tracer->time);
   }
@@ -174,7 +193,7 @@ void Renderer::draw_spheres(const Snapshot& snapshot, const Projection& projecti
   }
   pause(projection);
   // Spheres without a shape and the volume have no depths, so edges behind them are drawn first.
-  const bool light = SphereLight::draws(eye, snapshot);
+  const bool light = view.opacity > 0.0 && SphereLight::draws(eye, snapshot);
   const bool depthless = light || volume;
   using Sides = BoxLayer::Sides;
   if (depthless) space_->box.draw_edges(snapshot, projection, eye, walls, Sides::Far);
@@ -182,7 +201,9 @@ void Renderer::draw_spheres(const Snapshot& snapshot, const Projection& projecti
   // All spheres without a shape are behind a plane across the view, and the others before it.
   if (light) space_->light.draw(snapshot, projection, eye, colours, view.slab, slices);
   // The volume would end at the faint parts of spheres in front of it.
-  space_->spheres.draw(snapshot, projection, eye, colours, view.slab, !volume);
+  if (view.opacity > 0.0) {
+    space_->spheres.draw(snapshot, projection, eye, colours, view.slab, !volume);
+  }
   pause(projection);
   if (volume) {
     fine_->bind_colours();
@@ -222,29 +243,41 @@ void Renderer::draw_lines(const Snapshot& snapshot, const Projection& projection
   }
 }
 
-// The average of exact instants in the middle of equal parts of the exposure.
-void Renderer::draw_exposure(const Snapshot& snapshot, const Projection& projection,
-                             const View& view, const Legends& legends, const ThemeColours& theme,
-                             GLuint target) {
+// A picture with the particles, whose weight is their opacity, and one without them. Blurred
+// spheres are the average of exact instants in the middle of equal parts of the exposure.
+void Renderer::draw_sum(const Snapshot& snapshot, const Projection& projection, const View& view,
+                        const Legends& legends, const ThemeColours& theme, GLuint target) {
   constexpr int kInstants = 16;
-  if (!exposed_ || !(exposed_->size() == projection.size)) {
-    exposed_.emplace(*gl_, projection.size, GL_RGBA32F);
+  // Browsers on phones do not blend numbers of 32 bits, which a sum of two pictures does not need.
+  const GLint format = blurs_spheres(snapshot) ? GL_RGBA32F : GL_RGBA16F;
+  if (!sum_ || !(sum_->size() == projection.size) || sum_->format() != format) {
+    sum_.emplace(*gl_, projection.size, format);
   }
-  exposed_->bind();
+  sum_->bind();
   gl_->ClearColor(0.0f, 0.0f, 0.0f, 0.0f);
   gl_->Clear(GL_COLOR_BUFFER_BIT);
-  Snapshot instant = snapshot;
-  instant.exposure = 0.0;
-  instant.orientations.clear();
-  for (int k = 0; k < kInstants; ++k) {
-    move_to(instant, snapshot.exposure * ((k + 0.5) / kInstants - 1.0));
+  const auto add = [&](const Snapshot& shown, double opacity, double weight) {
+    View part = view;
+    part.opacity = opacity;
     fine_->bind();
-    draw_spheres(instant, projection, view, legends, theme);
-    exposed_->bind();
-    average_.add(*fine_, samples_, transparent_, 1.0 / kInstants, stop_);
+    draw_layers(shown, projection, part, legends, theme);
+    sum_->bind();
+    average_.add(*fine_, samples_, transparent_, weight, stop_);
+  };
+  if (view.opacity < 1.0) add(snapshot, 0.0, 1.0 - view.opacity);
+  if (blurs_spheres(snapshot)) {
+    Snapshot instant = snapshot;
+    instant.exposure = 0.0;
+    instant.orientations.clear();
+    for (int k = 0; k < kInstants; ++k) {
+      move_to(instant, snapshot.exposure * ((k + 0.5) / kInstants - 1.0));
+      add(instant, 1.0, view.opacity / kInstants);
+    }
+  } else {
+    add(snapshot, 1.0, view.opacity);
   }
   gl_->BindFramebuffer(GL_FRAMEBUFFER, target);
-  average_.draw_sum(*exposed_, transparent_, stop_);
+  average_.draw_sum(*sum_, transparent_, stop_);
 }
 
 void Renderer::draw_averaged(const Snapshot& snapshot, const Projection& projection,
@@ -257,16 +290,12 @@ void Renderer::draw_averaged(const Snapshot& snapshot, const Projection& project
   if (!fine_ || !(fine_->size() == drawn) || fine_->depth() != depth) {
     fine_.emplace(*gl_, drawn, GL_SRGB8_ALPHA8, depth);
   }
-  if (snapshot.exposure > 0.0 && !disks) {
-    draw_exposure(snapshot, finer, view, legends, theme, target);
+  if (is_sum(snapshot, view)) {
+    draw_sum(snapshot, finer, view, legends, theme, target);
     return;
   }
   fine_->bind();
-  if (disks) {
-    draw_world(snapshot, finer, view, legends, theme);
-  } else {
-    draw_spheres(snapshot, finer, view, legends, theme);
-  }
+  draw_layers(snapshot, finer, view, legends, theme);
   if (samples_ == 1) {
     fine_->copy_to(target);
     return;

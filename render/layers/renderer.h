@@ -72,10 +72,12 @@ class Renderer {
   void pause(const Projection& projection) const;
   DiskColours disk_colours(const View& view, const Legends& legends,
                            const ThemeColours& theme) const;
-  void draw_world(const Snapshot& snapshot, const Projection& projection, const View& view,
+  void draw_layers(const Snapshot& snapshot, const Projection& projection, const View& view,
+                   const Legends& legends, const ThemeColours& theme);
+  void draw_disks(const Snapshot& snapshot, const Projection& projection, const View& view,
                   const Legends& legends, const ThemeColours& theme);
-  void draw_exposure(const Snapshot& snapshot, const Projection& projection, const View& view,
-                     const Legends& legends, const ThemeColours& theme, GLuint target);
+  void draw_sum(const Snapshot& snapshot, const Projection& projection, const View& view,
+                const Legends& legends, const ThemeColours& theme, GLuint target);
   void draw_averaged(const Snapshot& snapshot, const Projection& projection, const View& view,
                      const Legends& legends, const ThemeColours& theme, GLuint target);
 
@@ -84,7 +86,7 @@ class Renderer {
   bool transparent_;
   StopRequest stop_;
   std::optional<Canvas> fine_;           ///< supersampled picture; absent: not drawn yet
-  std::optional<Canvas> exposed_;        ///< sum of an exposure of spheres; absent: not drawn yet
+  std::optional<Canvas> sum_;            ///< sum of pictures; absent: not drawn yet
   std::optional<LightCopy> light_copy_;  ///< OpenGL ES; absent: not used yet
   AverageLayer average_;
   FieldLayer field_;

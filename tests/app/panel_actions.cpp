@@ -33,6 +33,7 @@ Scene uneven_disks() {
   view.interval = 0.3;
   view.palette = Palette::Cividis;
   view.range = {.kind = ColourRange::Given, .ends = {-1.25, 3.5}};
+  view.opacity = 0.65;
   view.field_palette = FieldPalette::Inferno;
   view.field_range = {.kind = ColourRange::Given, .ends = {-4.5, 6.75}};
   view.arrows = Quantity::HeatFlux;

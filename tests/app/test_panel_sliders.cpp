@@ -53,6 +53,7 @@ const std::vector<SliderMeaning> kSliders = {
      "Gravity along y g_y -0.470 a/t²", "Acceleration"},
     {"bulk_drive.kick_speed", "/bulk_drive/kick_speed", 0.0, 1.0, "Kicks s 0.220 a/t",
      "Homogeneous"},
+    {"view.opacity", "/view/opacity", 0.0, 1.0, "Opacity 0.65", "Of the particles"},
     {"view.trails", "/view/trails", 0.0, 5.0, "Trails 0.25 t", "paths are drawn"},
     {"view.tracer.time", "/view/tracer/time", 0.1, 1000.0, "Path of the tracer 3.5 t",
      "path is drawn", true},

@@ -110,6 +110,8 @@ TEST_CASE("Panels: every name is beside the value of its own key, in its unit") 
                                "Range of the disks",
                                "{ given }",
                                "{ -1.25 } { 3.5 }",
+                               "Opacity 0.65",
+                               "{ 0.65 }",
                                "Heatmap",
                                "{ stress xy }",
                                "Palette of the heatmap",

@@ -134,6 +134,7 @@ void check_equal(const Scene& a, const Scene& b) {
   CHECK(a.view.palette == b.view.palette);
   CHECK(a.view.range == b.view.range);
   CHECK(a.view.field_palette == b.view.field_palette);
+  CHECK(a.view.opacity == b.view.opacity);
   CHECK(a.view.field_style == b.view.field_style);
   CHECK(a.view.field_range == b.view.field_range);
   CHECK(a.view.arrows == b.view.arrows);
@@ -235,6 +236,7 @@ Scene unusual_scene() {
       .speed = 1e-7,
       .palette = Palette::Inferno,
       .range = {ColourRange::Given, {-1.5, 2.0}},
+      .opacity = 1e-9,
       .field_palette = FieldPalette::Cividis,
       .field_style = FieldStyle::Cells,
       .field_range = {ColourRange::Locked},
@@ -384,6 +386,7 @@ TEST_CASE("Scene file: no key takes the value of another") {
     speed = 17
     palette = "inferno"
     range = [-18, 19]
+    opacity = 0.19
     field_palette = "cividis"
     field_style = "cells"
     field_range = [20, 21]
@@ -433,6 +436,7 @@ TEST_CASE("Scene file: no key takes the value of another") {
   CHECK(view.speed == 17.0);
   CHECK(view.palette == Palette::Inferno);
   CHECK(view.range == ColourRange{ColourRange::Given, {-18.0, 19.0}});
+  CHECK(view.opacity == 0.19);
   CHECK(view.field_palette == FieldPalette::Cividis);
   CHECK(view.field_style == FieldStyle::Cells);
   CHECK(view.field_range == ColourRange{ColourRange::Given, {20.0, 21.0}});
@@ -551,7 +555,7 @@ TEST_CASE("Scene file: a scene as JSON has the keys of the file") {
       R"("observables": []}, )"
       R"("view": {"colour_by": "speed", "window": 20.0, "estimator": "exact", "speed": 1.0, )"
       R"("palette": "viridis", )"
-      R"("range": "auto", "field_palette": "blue", "field_style": "smooth", )"
+      R"("range": "auto", "opacity": 1.0, "field_palette": "blue", "field_style": "smooth", )"
       R"("field_range": "auto", "theme": "dark", "grid": false, "overlay": true, )"
       R"("overlay_hides": [], "plots": [], )"
       R"("lecture": {"sliders": [], "plot": "temperature"}}})");

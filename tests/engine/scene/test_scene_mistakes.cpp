@@ -124,6 +124,8 @@ TEST_CASE("Scene file: mistakes are reported with their place and a fix") {
       {kParticles + "[view]\nbackground = \"#12345x\"\n",
        "s.toml:4:1: 'view.background' cannot be"},
       {kParticles + "[view]\nrange = \"automatic\"\n", "s.toml:4:1: 'view.range' cannot be"},
+      {kParticles + "[view]\nopacity = 1.5\n",
+       "s.toml:4:1: 'view.opacity' cannot be 1.5; give a number between 0 and 1"},
       {kParticles + "[view]\npalette = \"virdis\"\n",
        "s.toml:4:1: 'view.palette' cannot be \"virdis\"; give one of \"viridis\", \"inferno\", "
        "\"cividis\"; did you mean \"viridis\"?"},
