@@ -11,10 +11,9 @@ uniform bool u_encoded;   // output sRGB values instead of linear light
 uniform bool u_marked;    // draw the marks that show the rotation of the disks
 uniform vec2 u_box_low;  // corners between the faces of the walls, pixels
 uniform vec2 u_box_high;
+uniform float u_faintness;  // opacity outside the faces, for the parts beyond a periodic border
 
 out vec4 o_colour;
-
-const float kGhost = 0.15;  // opacity outside the faces, for the parts beyond a periodic border
 
 // Fraction of a pixel inside an edge at `distance` pixels; positive: inside.
 float coverage(float distance) { return clamp(distance + 0.5, 0.0, 1.0); }
@@ -37,7 +36,7 @@ void main() {
   if (whole == 0.0) discard;
 
   vec2 inside = min(gl_FragCoord.xy - u_box_low, u_box_high - gl_FragCoord.xy);
-  float alpha = whole * mix(kGhost, 1.0, coverage(min(inside.x, inside.y)));
+  float alpha = whole * mix(u_faintness, 1.0, coverage(min(inside.x, inside.y)));
 
   // The rim fades out towards the small disks that are drawn through their coverage.
   float rim = min(0.14 * u_radius, 2.5 * u_samples);

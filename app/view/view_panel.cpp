@@ -194,6 +194,12 @@ void view_panel(Session& session, Controls& controls) {
   if (disks) {
     changed |= controls.toggle("view.grid", "Grid", "Its spacing is the length of the scale bar",
                                view.grid);
+    const auto& walls = session.scene().walls;
+    if (!walls[kLeft] || !walls[kBottom]) {
+      changed |= controls.toggle("view.tiling", "Repeat beyond edges",
+                                 "Faint copies of the gas and the heatmap beyond periodic edges",
+                                 view.tiling);
+    }
   }
   changed |= controls.toggle("view.overlay", "Title, figures and scales",
                              "Text and legends on the picture, as in films", view.overlay);

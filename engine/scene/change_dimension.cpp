@@ -110,6 +110,7 @@ ChangedDimension change_dimension(const Scene& scene, int dimension) {
   remove_if(flat && view.slab, "view.slab", [&] { view.slab.reset(); });
   remove_if(flat && !view.slices.empty(), "view.slices", [&] { view.slices.clear(); });
   remove_if(flat && view.volume > 0.0, "view.volume", [&] { view.volume = 0.0; });
+  remove_if(!flat && view.tiling, "view.tiling", [&] { view.tiling = false; });
   remove_if(!view.camera.empty(), "view.camera", [&] { view.camera.clear(); });
   remove_if(remove_settings(made.changes, dimension), "change", [] {});
   made = with_settings(made, {});

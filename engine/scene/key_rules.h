@@ -75,6 +75,9 @@ inline constexpr Presence kOneOfNudge = {Presence::Forbidden,
                                          "contradicts another key: a nudge has one of scale, add "
                                          "and set",
                                          "remove one of the two"};
+inline constexpr Presence kNotOfSpheres = {
+    Presence::Forbidden, "has no meaning for spheres, whose copies would hide the box",
+    "remove it, or give box.size two numbers"};
 inline constexpr Presence kNotBesideFollow = {Presence::Forbidden, "has no meaning beside follow",
                                               "remove one of the two"};
 

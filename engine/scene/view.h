@@ -161,6 +161,7 @@ struct View {
   Theme theme = Theme::Dark;       ///< of background, letters, walls and lines
   std::optional<Rgb> background;   ///< absent: as the theme
   bool grid = false;               ///< lines over the box, spaced by the length of the scale bar
+  bool tiling = false;             ///< of disks: repeats the gas beyond periodic edges
   bool overlay = true;             ///< time, title, captions, colour bar, scale bar
   std::vector<OverlayPart> overlay_hides = {};  ///< parts that the overlay does not have
   std::vector<FilmPlot> plots = {};             ///< beside the gas in films, at most kMostPlots

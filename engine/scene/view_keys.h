@@ -158,6 +158,10 @@ inline constexpr auto kViewKeys = key_table(
       "Colours of background, letters, walls and lines. It does not change the size of letters."},
      {"background", "", "Colour of the background. Without a value the theme sets it."},
      {"grid", "", "Grid lines over the box. Their spacing is the length of the scale bar."},
+     {"tiling", "",
+      "Of disks: repeats particles, trails and heatmap beyond periodic edges, at half their "
+      "opacity. Each side has at most 8 copies of the box, and at least 1. Between these limits "
+      "all boxes together have at most 4 million disks."},
      {"overlay", "", "Title, captions, time, colour bar and scale bar."},
      {"overlay_hides", "",
       "Parts that the overlay does not have. caption is that of the scene, captions are timed."},
@@ -203,6 +207,8 @@ void visit_view(Visitor& io, View& view, int dimension) {
   io.choice(kViewKeys.at("theme"), view.theme, kThemes);
   io.value(kViewKeys.at("background"), view.background, Limits{});
   io.value(kViewKeys.at("grid"), view.grid);
+  io.value(kViewKeys.at("tiling"), view.tiling, Limits{},
+           dimension == 3 ? kNotOfSpheres : kOptional);
   io.value(kViewKeys.at("overlay"), view.overlay);
   io.choice(kViewKeys.at("overlay_hides"), view.overlay_hides, kOverlayParts);
   io.choice(kViewKeys.at("plots"), view.plots, kFilmPlots);

@@ -16,21 +16,23 @@ struct Way {
 };
 
 // Calls `visit` with each shift along an axis, a multiple of the box length, for which the disk
-// touches the box on its way. The way must not be longer than the box.
+// touches the box or a copy on its way. The way must not be longer than the box.
 template <class Visit>
-void visit_shifts(const Snapshot& snapshot, int axis, const Way& way, Visit visit) {
+void visit_shifts(const Snapshot& snapshot, const Tiling& tiling, int axis, const Way& way,
+                  Visit visit) {
   if (snapshot.walls[2 * axis]) return visit(0.0);
   const double radius = 0.5 * snapshot.diameter, box = snapshot.box[axis];
-  const double first = std::floor(-(way.high()[axis] + radius) / box) + 1.0;
-  const double last =
-      std::min(first + 2.0, std::ceil((box - way.low()[axis] + radius) / box) - 1.0);
+  const double low = tiling.low(snapshot.box)[axis], high = tiling.high(snapshot.box)[axis];
+  const double first = std::floor((low - way.high()[axis] - radius) / box) + 1.0;
+  const double last = std::min(first + tiling.last[axis] - tiling.first[axis] + 2.0,
+                               std::ceil((high - way.low()[axis] + radius) / box) - 1.0);
   for (double boxes = first; boxes <= last; ++boxes) visit(boxes * box);
 }
 
 class Collector {
  public:
-  Collector(const Snapshot& snapshot, const Projection& projection)
-      : snapshot_(snapshot), projection_(projection) {}
+  Collector(const Snapshot& snapshot, const Projection& projection, const Tiling& tiling)
+      : snapshot_(snapshot), projection_(projection), tiling_(tiling) {}
 
   std::vector<Chord> chords;
 
@@ -53,8 +55,8 @@ class Collector {
 
  private:
   void add(std::uint32_t disk, const Way& way, double from, double to) {
-    visit_shifts(snapshot_, 0, way, [&](double dx) {
-      visit_shifts(snapshot_, 1, way, [&](double dy) {
+    visit_shifts(snapshot_, tiling_, 0, way, [&](double dx) {
+      visit_shifts(snapshot_, tiling_, 1, way, [&](double dy) {
         const Vec2 shift(dx, dy);
         const Chord chord{disk, projection_.pixels(way.start + shift),
                           projection_.pixels(way.end + shift), from, to};
@@ -74,13 +76,14 @@ class Collector {
 
   const Snapshot& snapshot_;
   const Projection& projection_;
+  const Tiling& tiling_;
 };
 
 }  // namespace
 
 std::vector<Chord> chords(const Snapshot& snapshot, const std::vector<FlightPiece>& flights,
-                          const Projection& projection, double time) {
-  Collector collector(snapshot, projection);
+                          const Projection& projection, double time, const Tiling& tiling) {
+  Collector collector(snapshot, projection, tiling);
   for (const FlightPiece& piece : flights) {
     const double from = std::max(piece.from, -time);
     if (from < piece.to) collector.add(piece, from, piece.to);

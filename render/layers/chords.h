@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/publish/snapshot.h"
-#include "render/camera.h"
+#include "render/tiling.h"
 
 namespace clatter {
 
@@ -15,9 +15,9 @@ struct Chord {
   double from = 0.0, to = 0.0;                ///< times relative to the snapshot, from < to <= 0
 };
 
-/// The visible paths of the disks of these flights and of their periodic images over the last
-/// `time`. Chords deviate from a parabola by at most 1/16 pixel.
+/// The visible paths of the disks of these flights and of their periodic images in all copies of
+/// the box over the last `time`. Chords deviate from a parabola by at most 1/16 pixel.
 std::vector<Chord> chords(const Snapshot& snapshot, const std::vector<FlightPiece>& flights,
-                          const Projection& projection, double time);
+                          const Projection& projection, double time, const Tiling& tiling = {});
 
 }  // namespace clatter

@@ -30,17 +30,20 @@ double largest_point_of(const Gl& gl) {
 
 // Calls `visit` with the centre, in pixels, and the number of each visible disk and periodic image.
 template <class Visit>
-void visit_disks(const Snapshot& snapshot, const Projection& projection, Visit visit) {
+void visit_disks(const Snapshot& snapshot, const Projection& projection, const Tiling& tiling,
+                 Visit visit) {
   const double reach = reach_pixels(snapshot, projection);
   const double radius = 0.5 * snapshot.diameter;
   const Vec2 high(projection.drawn().width + reach, projection.drawn().height + reach);
 
   // Calls `shifted` with the shifts along an axis of a disk and its periodic images.
   auto shifts = [&](int axis, double place, auto&& shifted) {
-    shifted(0.0);
+    const int first = tiling.first[axis], last = tiling.last[axis];
+    const double length = snapshot.box[axis];
+    for (int copy = first; copy <= last; ++copy) shifted(copy * length);
     if (snapshot.walls[2 * axis]) return;
-    if (place < radius) shifted(snapshot.box[axis]);
-    if (place > snapshot.box[axis] - radius) shifted(-snapshot.box[axis]);
+    if (place < radius) shifted((last + 1) * length);
+    if (place > length - radius) shifted((first - 1) * length);
   };
 
   for (std::size_t i = 0; i < snapshot.count(); ++i) {
@@ -83,39 +86,40 @@ DiskLayer::DiskLayer(const Gl& gl, std::optional<double> largest_point)
 }
 
 void DiskLayer::draw(const Snapshot& snapshot, const Projection& projection,
-                     const DiskColours& colours) {
+                     const DiskColours& colours, const Tiling& tiling) {
   if (radius_pixels(snapshot, projection) < Coverage::kLargestRadius) {
-    draw_coverage(snapshot, projection, colours);
+    draw_coverage(snapshot, projection, colours, tiling);
   } else if (snapshot.exposure > 0.0) {
-    swept_.draw(snapshot, projection, colours);
+    swept_.draw(snapshot, projection, colours, tiling);
   } else {
-    draw_shapes(snapshot, projection, colours);
+    draw_shapes(snapshot, projection, colours, tiling);
   }
 }
 
 void DiskLayer::draw_coverage(const Snapshot& snapshot, const Projection& projection,
-                              const DiskColours& colours) {
+                              const DiskColours& colours, const Tiling& tiling) {
   coverage_.restart(projection.drawn(), radius_pixels(snapshot, projection));
   if (snapshot.exposure > 0.0) {
-    cover_paths(snapshot, projection, colours);
+    cover_paths(snapshot, projection, colours, tiling);
   } else {
-    visit_disks(snapshot, projection, [&](const Vec2& centre, std::size_t i) {
+    visit_disks(snapshot, projection, tiling, [&](const Vec2& centre, std::size_t i) {
       coverage_.add(centre, colours.of(snapshot, i));
     });
   }
   coverage_.sum();
-  light_.draw(coverage_, projection, faces_of(snapshot), colours.blending);
+  light_.draw(coverage_, projection, faces_of(snapshot), tiling.faintness, colours.blending);
 }
 
 // Adds disks along their paths in steps, each with its share of the exposure. The coverage resolves
 // positions far below a step.
 void DiskLayer::cover_paths(const Snapshot& snapshot, const Projection& projection,
-                            const DiskColours& colours) {
+                            const DiskColours& colours, const Tiling& tiling) {
   constexpr double kStep = 0.25;  // pixels
   constexpr double kMaxSteps = 1e6;
   const double reach = reach_pixels(snapshot, projection);
   const Vec2 high(projection.drawn().width + reach, projection.drawn().height + reach);
-  for (const Chord& chord : chords(snapshot, snapshot.flights, projection, snapshot.exposure)) {
+  for (const Chord& chord :
+       chords(snapshot, snapshot.flights, projection, snapshot.exposure, tiling)) {
     const Colour colour = colours.of(snapshot, chord.disk);
     const Vec2 way = chord.end - chord.start;
     const int steps = static_cast<int>(std::min(way.norm() / kStep, kMaxSteps)) + 1;
@@ -129,10 +133,10 @@ void DiskLayer::cover_paths(const Snapshot& snapshot, const Projection& projecti
 }
 
 void DiskLayer::draw_shapes(const Snapshot& snapshot, const Projection& projection,
-                            const DiskColours& colours) {
+                            const DiskColours& colours, const Tiling& tiling) {
   const bool marked = !snapshot.angles.empty();
   disks_.clear();
-  visit_disks(snapshot, projection, [&](const Vec2& centre, std::size_t i) {
+  visit_disks(snapshot, projection, tiling, [&](const Vec2& centre, std::size_t i) {
     disks_.push_back({static_cast<float>(centre.x()), static_cast<float>(centre.y()),
                       marked ? static_cast<float>(snapshot.angles[i]) : 0.0f,
                       light_of(colours.of(snapshot, i))});
@@ -144,13 +148,13 @@ void DiskLayer::draw_shapes(const Snapshot& snapshot, const Projection& projecti
   const GLsizei count = static_cast<GLsizei>(disks_.size());
   if (2.0 * reach_pixels(snapshot, projection) <= largest_point_) {
     // OpenGL drops points with their centre outside the viewport, so the viewport has a margin.
-    set_uniforms(point_, snapshot, projection, colours.blending,
+    set_uniforms(point_, snapshot, projection, colours.blending, tiling.faintness,
                  static_cast<int>(reach_pixels(snapshot, projection)) + 1);
     if (gl_->api == Api::Desktop) gl_->Enable(GL_PROGRAM_POINT_SIZE);  // ES: always on
     gl_->BindVertexArray(points_.id());
     gl_->DrawArrays(GL_POINTS, 0, count);
   } else {
-    set_uniforms(square_, snapshot, projection, colours.blending, 0);
+    set_uniforms(square_, snapshot, projection, colours.blending, tiling.faintness, 0);
     gl_->BindVertexArray(squares_.id());
     gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
   }
@@ -159,7 +163,8 @@ void DiskLayer::draw_shapes(const Snapshot& snapshot, const Projection& projecti
 }
 
 void DiskLayer::set_uniforms(const Program& program, const Snapshot& snapshot,
-                             const Projection& projection, Blending blending, int margin) const {
+                             const Projection& projection, Blending blending, float faintness,
+                             int margin) const {
   const int width = projection.drawn().width + 2 * margin;
   const int height = projection.drawn().height + 2 * margin;
   gl_->Viewport(-margin, -margin, width, height);
@@ -174,6 +179,7 @@ void DiskLayer::set_uniforms(const Program& program, const Snapshot& snapshot,
   gl_->Uniform1f(program.uniform("u_radius"), radius_pixels(snapshot, projection));
   gl_->Uniform1f(program.uniform("u_samples"), projection.samples);
   gl_->Uniform1i(program.uniform("u_encoded"), blending == Blending::Encoded);
+  gl_->Uniform1f(program.uniform("u_faintness"), faintness);
   gl_->Uniform1i(program.uniform("u_marked"), !snapshot.angles.empty());
   gl_->Uniform2f(program.uniform("u_box_low"), low.x(), low.y());
   gl_->Uniform2f(program.uniform("u_box_high"), high.x(), high.y());

@@ -9,6 +9,7 @@
 #include "render/layers/coverage.h"
 #include "render/layers/disk_colours.h"
 #include "render/layers/swept_layer.h"
+#include "render/tiling.h"
 
 namespace clatter {
 
@@ -20,9 +21,10 @@ class DiskLayer {
   /// `largest_point` is the largest point size in pixels; absent: the limit of the driver.
   explicit DiskLayer(const Gl& gl, std::optional<double> largest_point = {});
 
-  /// Draws the disks of the snapshot into the bound framebuffer, which must be sRGB. Disks that
-  /// cross a periodic border are drawn on both sides.
-  void draw(const Snapshot& snapshot, const Projection& projection, const DiskColours& colours);
+  /// Draws the disks of the snapshot, and their images in the copies of the box, into the bound
+  /// framebuffer, which must be sRGB. Disks that cross a periodic border are drawn on both sides.
+  void draw(const Snapshot& snapshot, const Projection& projection, const DiskColours& colours,
+            const Tiling& tiling = {});
 
  private:
   struct Disk {
@@ -32,13 +34,13 @@ class DiskLayer {
   };
 
   void draw_coverage(const Snapshot& snapshot, const Projection& projection,
-                     const DiskColours& colours);
+                     const DiskColours& colours, const Tiling& tiling);
   void cover_paths(const Snapshot& snapshot, const Projection& projection,
-                   const DiskColours& colours);
+                   const DiskColours& colours, const Tiling& tiling);
   void draw_shapes(const Snapshot& snapshot, const Projection& projection,
-                   const DiskColours& colours);
+                   const DiskColours& colours, const Tiling& tiling);
   void set_uniforms(const Program& program, const Snapshot& snapshot, const Projection& projection,
-                    Blending blending, int margin) const;
+                    Blending blending, float faintness, int margin) const;
 
   const Gl* gl_;
   double largest_point_;

@@ -4,6 +4,7 @@
 #include "render/camera.h"
 #include "render/gl/shader_program.h"
 #include "render/layers/field_texture.h"
+#include "render/tiling.h"
 
 namespace clatter {
 
@@ -22,9 +23,10 @@ class FieldLayer {
  public:
   explicit FieldLayer(const Gl& gl);
 
-  /// Draws the field of the snapshot over its box. `gap` is the colour of the hatching.
+  /// Draws the field of the snapshot over its box, and faintly over the copies of the box. `gap` is
+  /// the colour of the hatching.
   void draw(const Snapshot& snapshot, const Projection& projection, const ColourScale& scale,
-            FieldStyle style, Colour gap);
+            FieldStyle style, Colour gap, const Tiling& tiling = {});
 
  private:
   const Gl* gl_;

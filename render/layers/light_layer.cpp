@@ -26,24 +26,25 @@ void LightLayer::begin(Size size, GLenum equation) {
   gl_->BlendFuncSeparate(GL_ONE, GL_ONE, GL_ONE, GL_ONE);
 }
 
-void LightLayer::end(const Projection& projection, const Faces& faces, Blending blending) {
+void LightLayer::end(const Projection& projection, const Faces& faces, float faintness,
+                     Blending blending) {
   gl_->BlendEquation(GL_FUNC_ADD);
   gl_->BindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(target_));
-  draw(collected_->texture(), 0, projection, faces, blending);
+  draw(collected_->texture(), 0, projection, faces, faintness, blending);
 }
 
 void LightLayer::draw(const Coverage& coverage, const Projection& projection, const Faces& faces,
-                      Blending blending) const {
+                      float faintness, Blending blending) const {
   const Size extent = coverage.extent();
   gl_->ActiveTexture(GL_TEXTURE0);
   gl_->BindTexture(GL_TEXTURE_2D, areas_.id());
   gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, extent.width, extent.height, 0, GL_RGBA, GL_FLOAT,
                   coverage.pixels().data());
-  draw(areas_.id(), Coverage::kMargin, projection, faces, blending);
+  draw(areas_.id(), Coverage::kMargin, projection, faces, faintness, blending);
 }
 
 void LightLayer::draw(GLuint light, int margin, const Projection& projection, const Faces& faces,
-                      Blending blending) const {
+                      float faintness, Blending blending) const {
   const Size size = projection.drawn();
   const Vec2 low = projection.pixels(faces.low), high = projection.pixels(faces.high);
   gl_->Viewport(0, 0, size.width, size.height);
@@ -55,6 +56,7 @@ void LightLayer::draw(GLuint light, int margin, const Projection& projection, co
   gl_->Uniform2f(program_.uniform("u_high"), size.width, size.height);
   gl_->Uniform2f(program_.uniform("u_box_low"), low.x(), low.y());
   gl_->Uniform2f(program_.uniform("u_box_high"), high.x(), high.y());
+  gl_->Uniform1f(program_.uniform("u_faintness"), faintness);
   gl_->Uniform1i(program_.uniform("u_light"), 0);
   gl_->Uniform1i(program_.uniform("u_margin"), margin);
   gl_->Uniform1i(program_.uniform("u_encoded"), blending == Blending::Encoded);

@@ -23,17 +23,18 @@ class LightLayer {
   /// Redirects later draw calls to an empty buffer of `size`. It collects light times opacity, and
   /// opacity. `equation` combines overlapping values: GL_FUNC_ADD or GL_MAX.
   void begin(Size size, GLenum equation = GL_FUNC_ADD);
-  /// Blends the buffer over the framebuffer that was bound before begin().
-  void end(const Projection& projection, const Faces& faces, Blending blending);
-  /// Blends the light of a coverage over the bound framebuffer. Light outside the faces is faint.
+  /// Blends the buffer over the framebuffer that was bound before begin(). Light outside the faces
+  /// has the opacity `faintness`.
+  void end(const Projection& projection, const Faces& faces, float faintness, Blending blending);
+  /// Blends the light of a coverage over the bound framebuffer, with faces as above.
   void draw(const Coverage& coverage, const Projection& projection, const Faces& faces,
-            Blending blending) const;
+            float faintness, Blending blending) const;
 
  private:
   // Blends a texture over the bound framebuffer. The texture has `margin` more pixels on every
   // side.
   void draw(GLuint light, int margin, const Projection& projection, const Faces& faces,
-            Blending blending) const;
+            float faintness, Blending blending) const;
 
   const Gl* gl_;
   Program program_;

@@ -11,6 +11,7 @@
 #include "render/layers/grid_layer.h"
 #include "render/layers/marked_line.h"
 #include "render/layers/wall_layer.h"
+#include "render/tiling.h"
 #include "render/typeset_number.h"
 
 namespace clatter {
@@ -35,8 +36,8 @@ struct Page {
   float wrap = 0.0f;     // longest line of the heading, pixels
   float heading = 0.0f;  // from the upper edge of the picture to the end of the heading, pixels
   float caption = 0.0f;  // from the upper edge of the picture to the caption, pixels
-  ImVec2 box_low = {},
-         box_high = {};  // upper left and lower right corner of the box with its walls, pixels
+  // Upper left and lower right corner of the box with its walls and copies, pixels.
+  ImVec2 box_low = {}, box_high = {};
 };
 
 float unit_for(Size size, const OverlayText& text) {
@@ -130,7 +131,7 @@ ImU32 with_opacity(Colour colour, double opacity) {
   return packed(colour);
 }
 
-// Whether the box, enlarged by the camera, extends below this area.
+// Whether the box, enlarged by the camera or repeated, extends below this area.
 bool over_box(ImVec2 low, ImVec2 high, const Page& page) {
   return low.x < page.box_high.x && high.x > page.box_low.x && low.y < page.box_high.y &&
          high.y > page.box_low.y;
@@ -448,7 +449,10 @@ void Overlay::draw(const Snapshot& snapshot, const Projection& projection, const
   const OverlayText shown = shown_text(text, view);
   Page page = arrange(snapshot, fonts_for(size, text), theme, size, view, legends, shown);
   const Faces box = box_area(snapshot, projection);
-  const auto& [low, high] = box;
+  const Tiling tiling = tiling_of(snapshot, projection, view);
+  const Vec2 length = projection.scale() * snapshot.box.head<2>();
+  const Vec2 low = box.low + length.cwiseProduct(Vec2(tiling.first[0], tiling.first[1]));
+  const Vec2 high = box.high + length.cwiseProduct(Vec2(tiling.last[0], tiling.last[1]));
   const float wall = static_cast<float>(wall_thickness(size));
   page.box_low =
       ImVec2(static_cast<float>(low.x()) - wall, static_cast<float>(size.height - high.y()) - wall);

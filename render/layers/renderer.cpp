@@ -123,20 +123,23 @@ void Renderer::draw_layers(const Snapshot& snapshot, const Projection& projectio
 void Renderer::draw_disks(const Snapshot& snapshot, const Projection& projection, const View& view,
                           const Legends& legends, const ThemeColours& theme) {
   clear(projection, theme);
+  const Tiling tiling = tiling_of(snapshot, projection, view);
   if (legends.field && has_values(*snapshot.field)) {
     const FieldStyle style = style_of(snapshot.field->field, view);
-    field_.draw(snapshot, projection, legends.field->scale, style, gap_colour(theme, style));
+    field_.draw(snapshot, projection, legends.field->scale, style, gap_colour(theme, style),
+                tiling);
   }
   pause(projection);
   if (view.grid) grid_.draw(snapshot, projection, thin(theme.static_wall, kGrid));
   walls_.draw(snapshot, projection, wall_colours(theme, legends, view, 2));
   const DiskColours colours = disk_colours(view, legends, theme);
   blend_in_light(true);
-  if (view.trails) trails_.draw(snapshot, snapshot.flights, projection, colours, *view.trails);
+  if (view.trails)
+    trails_.draw(snapshot, snapshot.flights, projection, colours, *view.trails, tiling);
   pause(projection);
-  if (view.opacity > 0.0) disks_.draw(snapshot, projection, colours);
+  if (view.opacity > 0.0) disks_.draw(snapshot, projection, colours, tiling);
   if (view.tracer) {
-    trails_.draw(snapshot, snapshot.traced, projection, colours, view.tracer->time);
+    trails_.draw(snapshot, snapshot.traced, projection, colours, view.tracer->time, tiling);
   }
   blend_in_light(false);
   pause(projection);

@@ -60,6 +60,7 @@ void SliceLayer::draw(const Snapshot& snapshot, const std::vector<Slice>& slices
   const Program& program = faces_.use(snapshot.box, projection, eye);
   const Size size = projection.size;
   gl_->Uniform1i(program.uniform("u_cells"), 0);
+  gl_->Uniform1f(program.uniform("u_opacity"), 1.0f);
   set_colour(*gl_, program, "u_gap", gap);
   gl_->Uniform1f(
       program.uniform("u_period"),

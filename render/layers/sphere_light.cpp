@@ -70,7 +70,7 @@ void SphereLight::draw(const Snapshot& snapshot, const Projection& projection, c
   coverage_.compose(mean_light(eye));
   gl_->Disable(GL_DEPTH_TEST);
   const Faces everywhere{Vec2::Constant(-1e9), Vec2::Constant(1e9)};
-  light_.draw(coverage_, projection, everywhere, colours.blending);
+  light_.draw(coverage_, projection, everywhere, 1.0f, colours.blending);
   gl_->Enable(GL_DEPTH_TEST);
 }
 

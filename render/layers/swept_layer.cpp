@@ -10,11 +10,12 @@ SweptLayer::SweptLayer(const Gl& gl)
     : gl_(&gl), program_(gl, "swept.vert", "swept.frag"), light_(gl), strokes_(gl) {}
 
 void SweptLayer::draw(const Snapshot& snapshot, const Projection& projection,
-                      const DiskColours& colours) {
+                      const DiskColours& colours, const Tiling& tiling) {
   // The shader divides by the length of the way, so a disk at rest gets an invisibly short way.
   constexpr double kShortest = 1.0 / 32.0;  // pixels
   drawn_.clear();
-  for (const Chord& chord : chords(snapshot, snapshot.flights, projection, snapshot.exposure)) {
+  for (const Chord& chord :
+       chords(snapshot, snapshot.flights, projection, snapshot.exposure, tiling)) {
     const Vec2 way = chord.end - chord.start;
     const double length = std::max(way.norm(), kShortest);
     const Vec2 along = way.norm() > 0.0 ? Vec2(way.normalized()) : Vec2(1.0, 0.0);
@@ -30,7 +31,7 @@ void SweptLayer::draw(const Snapshot& snapshot, const Projection& projection,
   gl_->Uniform1f(program_.uniform("u_radius"), 0.5 * snapshot.diameter * projection.scale());
   gl_->Uniform1f(program_.uniform("u_samples"), projection.samples);
   strokes_.draw(drawn_);
-  light_.end(projection, faces_of(snapshot), colours.blending);
+  light_.end(projection, faces_of(snapshot), tiling.faintness, colours.blending);
 }
 
 }  // namespace clatter

@@ -6,6 +6,7 @@
 #include "render/camera.h"
 #include "render/gl/shader_program.h"
 #include "render/layers/strokes.h"
+#include "render/tiling.h"
 
 namespace clatter {
 
@@ -16,9 +17,10 @@ class SweptLayer {
  public:
   explicit SweptLayer(const Gl& gl);
 
-  /// Draws the disks along the flights of the snapshot into the bound framebuffer, which must be
-  /// sRGB. A disk has its colour at the time of the snapshot.
-  void draw(const Snapshot& snapshot, const Projection& projection, const DiskColours& colours);
+  /// Draws the disks along the flights of the snapshot, also in the copies of the box, into the
+  /// bound framebuffer, which must be sRGB. A disk has its colour at the time of the snapshot.
+  void draw(const Snapshot& snapshot, const Projection& projection, const DiskColours& colours,
+            const Tiling& tiling);
 
  private:
   const Gl* gl_;

@@ -11,10 +11,11 @@ TrailLayer::TrailLayer(const Gl& gl)
 
 // GL_MAX blending: overlapping lines show the stronger one, so joints are invisible.
 void TrailLayer::draw(const Snapshot& snapshot, const std::vector<FlightPiece>& flights,
-                      const Projection& projection, const DiskColours& colours, double time) {
+                      const Projection& projection, const DiskColours& colours, double time,
+                      const Tiling& tiling) {
   constexpr double kOpacity = 0.6;  // at the disk
   drawn_.clear();
-  for (const Chord& chord : chords(snapshot, flights, projection, time)) {
+  for (const Chord& chord : chords(snapshot, flights, projection, time, tiling)) {
     const Vec2 opacities = {kOpacity * (1.0 + chord.from / time),
                             kOpacity * (1.0 + chord.to / time)};
     drawn_.push_back({{chord.start.cast<float>(), chord.end.cast<float>(), opacities.cast<float>()},
@@ -28,7 +29,7 @@ void TrailLayer::draw(const Snapshot& snapshot, const std::vector<FlightPiece>& 
   gl_->Uniform2f(program_.uniform("u_size"), size.width, size.height);
   gl_->Uniform1f(program_.uniform("u_half"), std::max(0.2 * radius, 0.6 * projection.samples));
   strokes_.draw(drawn_);
-  light_.end(projection, faces_of(snapshot), colours.blending);
+  light_.end(projection, faces_of(snapshot), tiling.faintness, colours.blending);
 }
 
 }  // namespace clatter

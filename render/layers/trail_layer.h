@@ -6,6 +6,7 @@
 #include "render/camera.h"
 #include "render/gl/shader_program.h"
 #include "render/layers/strokes.h"
+#include "render/tiling.h"
 
 namespace clatter {
 
@@ -14,10 +15,11 @@ class TrailLayer {
  public:
   explicit TrailLayer(const Gl& gl);
 
-  /// Draws the parts of flights in the last `time` > 0 into the bound framebuffer, which must be
-  /// sRGB.
+  /// Draws the parts of flights in the last `time` > 0, also in the copies of the box, into the
+  /// bound framebuffer, which must be sRGB.
   void draw(const Snapshot& snapshot, const std::vector<FlightPiece>& flights,
-            const Projection& projection, const DiskColours& colours, double time);
+            const Projection& projection, const DiskColours& colours, double time,
+            const Tiling& tiling = {});
 
  private:
   const Gl* gl_;

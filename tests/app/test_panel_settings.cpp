@@ -150,6 +150,29 @@ TEST_CASE("Panels: every box to tick switches its own key") {
   CHECK(changed_by("contact_time") == Places{"/collapse/contact_time"});
 }
 
+TEST_CASE("Panels: a box of disks with a periodic axis can be repeated beyond its edges") {
+  const auto offers = [](const Scene& scene) {
+    PanelDriver driver(scene, all_panels);
+    return says(text_of(driver), "Repeat beyond edges");
+  };
+  Scene scene = uneven_disks();
+  CHECK_FALSE(offers(scene));
+  scene.walls[kLeft].reset();
+  scene.walls[kRight].reset();
+  CHECK(offers(scene));
+  PanelDriver driver(scene, all_panels);
+  const json before = settings(driver);
+  tick(driver, "view.tiling");
+  CHECK(changes(before, settings(driver)) == Places{"/view/tiling"});
+  scene = uneven_disks();
+  scene.walls[kBottom].reset();
+  scene.walls[kTop].reset();
+  CHECK(offers(scene));
+  scene = uneven_spheres();
+  scene.walls.fill({});
+  CHECK_FALSE(offers(scene));
+}
+
 TEST_CASE("Panels: spins go with their keys, and come back with the numbers that they had") {
   Scene scene = uneven_disks();
   scene.particles.inertia = 0.45;

@@ -80,8 +80,13 @@ TEST_CASE("Change of dimension: spheres become disks, without the keys of z") {
 TEST_CASE("Change of dimension: disks become spheres that fill the same share of the box") {
   Scene scene = load_scene("vibrated");
   scene.gravity = Vec2(0.0, -0.5);
+  scene.view.opacity = 0.5;
+  CHECK(change_dimension(scene, 3).removed.empty());
+  scene.view.tiling = true;
   const auto [spheres, removed] = change_dimension(scene, 3);
-  CHECK(removed.empty());
+  CHECK(removed == Keys{"view.tiling"});
+  CHECK_FALSE(spheres.view.tiling);
+  CHECK(spheres.view.opacity == 0.5);
   CHECK(spheres.particles.count == scene.particles.count);
   CHECK(spheres.box.y() == spheres.box.z());
   CHECK(spheres.box.x() / spheres.box.y() == doctest::Approx(20.0 / 25.0).epsilon(0.02));

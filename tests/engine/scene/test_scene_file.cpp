@@ -141,6 +141,7 @@ void check_equal(const Scene& a, const Scene& b) {
   CHECK(a.view.theme == b.view.theme);
   CHECK(a.view.background == b.view.background);
   CHECK(a.view.grid == b.view.grid);
+  CHECK(a.view.tiling == b.view.tiling);
   CHECK(a.view.overlay == b.view.overlay);
   CHECK(a.view.trails == b.view.trails);
   CHECK(a.view.tracer == b.view.tracer);
@@ -244,6 +245,7 @@ Scene unusual_scene() {
       .theme = Theme::Projector,
       .background = Rgb{0, 10, 255},
       .grid = true,
+      .tiling = true,
       .overlay = false,
       .overlay_hides = {OverlayPart::ScaleBar, OverlayPart::Time, OverlayPart::Captions},
       .plots = {FilmPlot::HeatFluxProfile, FilmPlot::Energy, FilmPlot::Velocities},
@@ -394,6 +396,7 @@ TEST_CASE("Scene file: no key takes the value of another") {
     theme = "light"
     background = "#16171a"
     grid = true
+    tiling = true
     overlay = false
     trails = 27
     card = 28
@@ -444,6 +447,7 @@ TEST_CASE("Scene file: no key takes the value of another") {
   CHECK(view.theme == Theme::Light);
   CHECK(view.background == Rgb{0x16, 0x17, 0x1a});
   CHECK(view.grid);
+  CHECK(view.tiling);
   CHECK_FALSE(view.overlay);
   CHECK(view.trails == 27.0);
   CHECK(view.card == 28.0);
@@ -556,8 +560,8 @@ TEST_CASE("Scene file: a scene as JSON has the keys of the file") {
       R"("view": {"colour_by": "speed", "window": 20.0, "estimator": "exact", "speed": 1.0, )"
       R"("palette": "viridis", )"
       R"("range": "auto", "opacity": 1.0, "field_palette": "blue", "field_style": "smooth", )"
-      R"("field_range": "auto", "theme": "dark", "grid": false, "overlay": true, )"
-      R"("overlay_hides": [], "plots": [], )"
+      R"("field_range": "auto", "theme": "dark", "grid": false, "tiling": false, )"
+      R"("overlay": true, "overlay_hides": [], "plots": [], )"
       R"("lecture": {"sliders": [], "plot": "temperature"}}})");
 }
 

@@ -126,6 +126,9 @@ TEST_CASE("Scene file: mistakes are reported with their place and a fix") {
       {kParticles + "[view]\nrange = \"automatic\"\n", "s.toml:4:1: 'view.range' cannot be"},
       {kParticles + "[view]\nopacity = 1.5\n",
        "s.toml:4:1: 'view.opacity' cannot be 1.5; give a number between 0 and 1"},
+      {"[box]\nsize = [9, 9, 9]\n" + kParticles + "[view]\ntiling = true\n",
+       "s.toml:6:1: 'view.tiling' has no meaning for spheres, whose copies would hide the box; "
+       "remove it, or give box.size two numbers"},
       {kParticles + "[view]\npalette = \"virdis\"\n",
        "s.toml:4:1: 'view.palette' cannot be \"virdis\"; give one of \"viridis\", \"inferno\", "
        "\"cividis\"; did you mean \"viridis\"?"},
