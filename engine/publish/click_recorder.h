@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "engine/dynamics/observer.h"
@@ -27,6 +29,11 @@ struct Click {
 template <int D>
 class ClickRecorder final : private Observer<D> {
  public:
+  /// Keeps all clicks, or at most `most` >= 2 until take(). Of more clicks it keeps every second
+  /// one with twice its energy, every fourth, and so on. The sum of the energies is about the same.
+  explicit ClickRecorder(std::size_t most = std::numeric_limits<std::size_t>::max())
+      : most_(most) {}
+
   /// Observes the next simulation of the run.
   void follow(Simulation<D>& next);
   /// The clicks since the last call, in the order of the events.
@@ -36,9 +43,13 @@ class ClickRecorder final : private Observer<D> {
   void on_collision(const PairCollision<D>& collision) override;
   void on_wall(const WallCollision<D>& collision) override;
   void add(const Vec<D>& contact, const Vec<D>& momentum, double reduced_mass);
+  void thin_out();
 
+  std::size_t most_;
   const Simulation<D>* simulation_ = nullptr;
   std::vector<Click> clicks_;
+  std::size_t stride_ = 1;   // collisions per click
+  std::size_t skipped_ = 0;  // collisions since the last click
 };
 
 extern template class ClickRecorder<2>;

@@ -83,6 +83,10 @@ struct ShowProfile {
   Profiled what = Profiled::Fields;
   Axis axis = Axis::X;
 };
+/// Records the collisions of the selected gas from now on, for its sound, or ends that.
+struct Listen {
+  bool on = true;
+};
 /// Selects the particle whose collisions frames contain from now on; absent: none.
 struct Pick {
   std::optional<std::uint32_t> particle;
@@ -129,8 +133,8 @@ using Command =
     std::variant<command::Play, command::PlayBackwards, command::Step, command::StepCollision,
                  command::Jump, command::StepBack, command::ExchangeFutures, command::MoveChange,
                  command::ReplaceChanges, command::Loop, command::SetSpeed, command::SetLaws,
-                 command::Nudge, command::Show, command::ShowProfile, command::Pick,
-                 command::CopyGas, command::RemoveGas, command::SelectGas, command::Open,
-                 command::CancelOpen>;
+                 command::Nudge, command::Show, command::ShowProfile, command::Listen,
+                 command::Pick, command::CopyGas, command::RemoveGas, command::SelectGas,
+                 command::Open, command::CancelOpen>;
 
 }  // namespace clatter

@@ -11,6 +11,7 @@
 #include "engine/observables/observable.h"
 #include "engine/publish/collision_lookahead.h"
 #include "engine/publish/live_profile.h"
+#include "engine/publish/played_stretch.h"
 #include "engine/publish/snapshot.h"
 #include "engine/publish/tally.h"
 
@@ -46,13 +47,15 @@ struct Frame {
   std::shared_ptr<const Scene>
       started;                     ///< at the run's start; its start state may exist in no file
   std::optional<Profile> profile;  ///< since its request or the last change of laws, averages or
-                                   ///< trails; absent: not requested
+                                   ///< trails, or the end of Listen; absent: not requested
   std::optional<ResidualProfile> residuals;  ///< as for `profile`
   /// Tables of the scene's observables since the start or the last change of laws; nullptr: the
   /// scene has none, or profiles are not requested.
   std::shared_ptr<const std::vector<ResultTable>> observables;
   std::optional<ParticleCollision> last_collision;  ///< of the picked particle, since it was picked
   std::optional<ParticleCollision> next_collision;  ///< of the picked particle, if found
+  /// The last stretches played under Listen, at most kMostStretches, in order.
+  std::vector<std::shared_ptr<const PlayedStretch>> played;
   std::optional<double> opening;  ///< completed part of the scene being opened, 0..1; absent: none
   std::uint64_t seed = 1;
   bool plays = false;

@@ -26,12 +26,15 @@ void GasesInStep::remove(std::size_t gas) {
   if (gas >= gases_.size() || gases_.size() == 1) return;
   gases_.erase(gases_.begin() + static_cast<std::ptrdiff_t>(gas));
   if (selected_ >= gas && selected_ > 0) --selected_;
+  selected().listen(listens_);
 }
 
 void GasesInStep::select(std::size_t gas) {
   if (gas >= gases_.size() || gas == selected_) return;
   selected().pick(std::nullopt);
+  selected().listen(false);
   selected_ = gas;
+  selected().listen(listens_);
 }
 
 double GasesInStep::time() const {
@@ -136,6 +139,11 @@ void GasesInStep::show(const View& view) {
 
 void GasesInStep::show_profile(Profiled what, Axis axis) {
   for (const Gas& gas : gases_) gas.run->show_profile(what, axis);
+}
+
+void GasesInStep::listen(bool on) {
+  listens_ = on;
+  selected().listen(on);
 }
 
 void GasesInStep::tell(Frame& frame, bool halted) {

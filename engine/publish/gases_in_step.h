@@ -10,9 +10,9 @@
 namespace clatter {
 
 /// Runs that are compared, at the same simulation time. The selected one leads: it determines the
-/// end of each stretch, and the others run to the same time. Changes of laws, nudges, futures and
-/// picks concern the selected run only. Times and profiles concern all runs, views those of its
-/// dimension.
+/// end of each stretch, and the others run to the same time. Changes of laws, nudges, futures,
+/// picks and clicks concern the selected run only. Times and profiles concern all runs, views those
+/// of its dimension.
 ///
 /// A frame is that of the selected run, with the frames of the others in Frame::beside. Each run
 /// has the bits that it has alone. Where a run stops, all go to this time.
@@ -57,6 +57,8 @@ class GasesInStep final : public WatchedRun {
   }
   void show(const View& view) override;
   void show_profile(Profiled what, Axis axis) override;
+  void listen(bool on) override;
+  std::vector<Click> take_clicks() override { return selected().take_clicks(); }
   void pick(std::optional<std::uint32_t> particle) override { selected().pick(particle); }
   void tell(Frame& frame, bool halted) override;
   bool looks_ahead() const override { return selected().looks_ahead(); }
@@ -80,6 +82,7 @@ class GasesInStep final : public WatchedRun {
 
   std::vector<Gas> gases_;
   std::size_t selected_;
+  bool listens_ = false;
 };
 
 }  // namespace clatter

@@ -55,6 +55,10 @@ class RunOf : public WatchedRun {
   void go_back(double time) override;
   void show(const View& view) override;
   void show_profile(Profiled what, Axis axis) override;
+  void listen(bool on) override;
+  std::vector<Click> take_clicks() override {
+    return clicks_ ? clicks_->take() : std::vector<Click>();
+  }
   void pick(std::optional<std::uint32_t> particle) override;
   void tell(Frame& frame, bool halted) override;
   bool looks_ahead() const override;
@@ -136,6 +140,7 @@ class RunOf : public WatchedRun {
   std::optional<LiveProfile<D>> profile_;  // if profiled_ is Fields
   std::optional<LiveResiduals<D>> residuals_;
   std::unique_ptr<LiveObservables<D>> observables_;  // absent: the scene has none
+  std::unique_ptr<ClickRecorder<D>> clicks_;         // absent: nobody listens
   bool same_laws_ = false;  // the next simulation has the laws of the present one
   Tally tally_ = empty_tally(D);
   Tally tally_at_laws_ = tally_;  // at the last change of laws
@@ -208,6 +213,7 @@ void RunOf<D>::observe(Simulation<D>& simulation) {
   if (picked_collisions_ && picked_collisions_->last())
     last_collision_ = picked_collisions_->last();
   simulation.add_observer(picked_collisions_.emplace(simulation, picked_));
+  if (clicks_) clicks_->follow(simulation);
   lookahead_.reset();
   profile_.reset();
   residuals_.reset();
@@ -239,6 +245,20 @@ void RunOf<D>::pick(std::optional<std::uint32_t> particle) {
   last_collision_.reset();
   picked_collisions_->watch(particle);
   lookahead_.reset();
+}
+
+// A simulation without a recorder replaces the one with it.
+template <int D>
+void RunOf<D>::listen(bool on) {
+  if (on == (clicks_ != nullptr)) return;
+  if (on) {
+    clicks_ = std::make_unique<ClickRecorder<D>>(kMostClicks);
+    return clicks_->follow(run_.simulation());
+  }
+  const auto ended = std::exchange(clicks_, nullptr);
+  same_laws_ = true;
+  run_.renew();
+  same_laws_ = false;
 }
 
 template <int D>

@@ -39,8 +39,8 @@ class WatchedRun {
   virtual AnyState state() const = 0;
 
   /// A copy of the run at its present time, with the same past and the same changes. Its profiles
-  /// and observables restart, it picks no particle and has no other future. Recorded states are
-  /// shared.
+  /// and observables restart, it picks no particle, records no clicks and has no other future.
+  /// Recorded states are shared.
   virtual std::unique_ptr<WatchedRun> copy() = 0;
 
   /// As Simulation::prepare.
@@ -87,6 +87,10 @@ class WatchedRun {
 
   /// Selects the profile of frames from now on. An axis that the box lacks is x.
   virtual void show_profile(Profiled what, Axis axis) = 0;
+  /// Begins or ends the record of clicks.
+  virtual void listen(bool on) = 0;
+  /// The clicks since the last call, at most kMostClicks. Empty unless they are recorded.
+  virtual std::vector<Click> take_clicks() = 0;
   /// Selects the particle whose collisions frames contain from now on. Absent, or a number that is
   /// too large: none.
   virtual void pick(std::optional<std::uint32_t> particle) = 0;

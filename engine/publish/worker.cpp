@@ -230,6 +230,7 @@ class EngineWork {
   }
   void obey(const command::SetSpeed& asked) { pace_.set_speed(asked.speed); }
   void obey(const command::SetLaws& asked) {
+    ++laws_;
     if (gases_) gases_->change(asked.laws, delay());
   }
   void obey(const command::Nudge& asked) {
@@ -241,6 +242,11 @@ class EngineWork {
   void obey(const command::ShowProfile& asked) {
     profiled_ = asked;
     if (gases_) gases_->show_profile(asked.what, asked.axis);
+  }
+  void obey(const command::Listen& asked) {
+    listens_ = asked.on;
+    played_.clear();
+    if (gases_) gases_->listen(listens_);
   }
   void obey(const command::Pick& asked) {
     if (gases_) gases_->pick(asked.particle);
@@ -324,6 +330,8 @@ class EngineWork {
     gases_ = std::make_unique<GasesInStep>(std::move(runs), std::move(ids),
                                            std::min(asked.gas, asked.beside.size()));
     gases_->show_profile(profiled_.what, profiled_.axis);
+    gases_->listen(listens_);
+    ++laws_;
     pace_.set_speed(asked.scene.view.speed);
     plays_ = asked.plays;
     until_ = std::numeric_limits<double>::infinity();
@@ -435,6 +443,20 @@ class EngineWork {
     return arrived;
   }
 
+  // The same for a gas that plays, whose clicks are kept for listeners.
+  bool advance_heard(double time, Clock::time_point due) {
+    if (!listens_) return advance(time, kNoLimit, due);
+    constexpr double kLeastHeld = 0.01;
+    gases_->take_clicks();  // of the way to the present time, which nobody hears
+    const double from = this->time();
+    const bool arrived = advance(time, kNoLimit, due);
+    if (played_.size() == kMostStretches) played_.erase(played_.begin());
+    played_.push_back(std::make_shared<const PlayedStretch>(PlayedStretch{
+        ++stretches_, from, this->time(), pace_.speed() * std::max(kLeastHeld, pace_.held()), laws_,
+        gases_->take_clicks()}));
+    return arrived;
+  }
+
   bool run_slices(double time, std::uint64_t collisions, Clock::time_point due) {
     constexpr std::chrono::milliseconds kSlice{2};
     for (;;) {
@@ -455,7 +477,7 @@ class EngineWork {
   bool play(double goal, Clock::time_point due) {
     const bool repeats = loop_ && time() < (*loop_)[1];
     const double end = repeats ? std::min(until_, (*loop_)[1]) : until_;
-    const bool arrived = advance(std::min(goal, end), kNoLimit, due);
+    const bool arrived = advance_heard(std::min(goal, end), due);
     if (arrived && time() >= until_) {
       halt();
     } else if (arrived && repeats && goal >= end) {
@@ -517,6 +539,7 @@ class EngineWork {
     frame.held = pace_.held();
     frame.events_per_second = event_rate();
     frame.partners = partners_;
+    frame.played = played_;
     frame.stop = stop_;
     frame.message = message_;
     frame.messages = messages_;
@@ -554,6 +577,10 @@ class EngineWork {
   std::optional<Opening> opening_;
   std::deque<Command> waiting_;  // commands that were not obeyed yet
   command::ShowProfile profiled_ = {.what = Profiled::Nothing};
+  bool listens_ = false;
+  std::uint64_t stretches_ = 0;  // PlayedStretch::number of the last one
+  std::uint64_t laws_ = 0;       // PlayedStretch::laws
+  std::vector<std::shared_ptr<const PlayedStretch>> played_;  // see Frame
   bool plays_ = false;
   bool backwards_ = false;            // plays_ backwards
   std::optional<Rewinder> rewinder_;  // while it plays backwards
