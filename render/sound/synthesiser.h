@@ -9,7 +9,7 @@
 
 namespace clatter {
 
-/// Samples per second of film, of each channel.
+/// Samples per second of sound, of each channel.
 constexpr int kSampleRate = 48000;
 
 /// A stereo sample: left, right.
@@ -54,7 +54,7 @@ class Synthesiser {
  public:
   Synthesiser();
 
-  /// Begins with a scale.
+  /// Uses a scale for the clicks that are added from now on.
   void use(const SoundScale& scale);
   /// Adds a click at a time in seconds of film. A time before the next sample sounds at this
   /// sample.
