@@ -37,6 +37,7 @@ need_module(MPFR mpfr libmpfr-dev)
 need_module(IMGUI imgui libimgui-dev)
 need_module(STB stb libstb-dev)
 need_module(GLFW glfw3 libglfw3-dev)
+need_module(OPENAL openal libopenal-dev)
 # The GL libraries are opened at run time. The build needs their headers only.
 need_header(GL/glcorearb.h libgl-dev)
 need_header(GL/osmesa.h libosmesa6-dev)

@@ -16,6 +16,7 @@ struct ViewOptions {
   std::string size = "1280x800";
   Backend backend = Backend::Auto;
   std::string playlist;
+  bool sound = false;
   CompareOptions compare;
   std::string script_log;
 };
@@ -38,6 +39,7 @@ int view(const ViewOptions& options) {
     window.scene = window.playlist.front().scene;
     window.seed = window.playlist.front().seed.value_or(window.seed);
   }
+  window.sound = options.sound;
   window.until = options.common.until;
   window.script_log = options.script_log;
   window.size = parse_size(options.size, {320, 240});
@@ -68,6 +70,8 @@ void add_view_command(CLI::App& program, int& exit_code) {
       ->add_option("--until", options->common.until,
                    "Simulation time at which the gas pauses. The space bar continues.")
       ->check(positive_number());
+  command->add_flag("--sound", options->sound,
+                    "Each collision is a click. The key S switches this too.");
   add_backend_flag(*command, options->backend);
   command
       ->add_option("--script-log", options->script_log,

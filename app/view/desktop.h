@@ -3,6 +3,7 @@
 #include <array>
 
 #include "app/view/host.h"
+#include "app/view/openal_speaker.h"
 #include "app/view/window_input.h"
 
 struct GLFWwindow;
@@ -27,9 +28,11 @@ class Desktop final : public Host {
   std::string link_to(const std::string&) const override { return {}; }
   bool has_processes() const override { return true; }
   ScreenRecorder* recorder() override { return nullptr; }
+  Loudspeaker* loudspeaker() override { return &speaker_; }
 
  private:
   GLFWwindow* window_;
+  OpenAlSpeaker speaker_;
   std::array<int, 4> windowed_ = {};  // x, y, width and height before full screen
 };
 

@@ -13,6 +13,7 @@
 #include "app/view/style.h"
 #include "app/view/table_plots.h"
 #include "app/view/top_bar.h"
+#include "engine/error.h"
 #include "engine/scene/enum_names.h"
 #include "engine/scene/key_writer.h"
 #include "engine/scene/scene_file.h"
@@ -41,6 +42,21 @@ void Gui::open(const Scene& scene, std::uint64_t seed, std::optional<double> unt
   profile_axis_ = static_cast<int>(scene.measure.profile_axis);
   session_.open(scene, seed, !until, beside);
   if (until) session_.play_until(*until);
+}
+
+void Gui::listen(bool on) {
+  Loudspeaker* loudspeaker = host_.loudspeaker();
+  if (!loudspeaker) return;
+  try {
+    if (on) {
+      loudspeaker->open();
+    } else {
+      loudspeaker->close();
+    }
+  } catch (const RunError& error) {
+    return session_.tell(error.what());
+  }
+  session_.listen(on);
 }
 
 // Reads the scale of the window and loads the fonts for it.
@@ -87,6 +103,7 @@ void Gui::draw() {
     }
     host_.set_title(*title_ + " – clatter");
   }
+  if (session_.listens()) host_.loudspeaker()->play(session_.frame().played);
   watch_film();
   use_keys();
   const bool in_lecture = panels_.lecture && !panels_.panels && tools_.plot &&
@@ -165,10 +182,11 @@ float Gui::top_panel() {
   ImGui::SetNextWindowPos(ImVec2(0, 0));
   ImGui::SetNextWindowSize(ImVec2(whole.x, top));
   ImGui::Begin("top", nullptr, kFixedPanel | ImGuiWindowFlags_NoScrollbar);
-  const bool switches = top_bar(session_, controls_, panels_);
+  const BarButton pressed = top_bar(session_, controls_, panels_, host_.loudspeaker() != nullptr);
   ImGui::End();
   ImGui::PopStyleVar();
-  if (switches) lecture(!panels_.lecture);
+  if (pressed == BarButton::Sound) listen(!session_.listens());
+  if (pressed == BarButton::Lecture) lecture(!panels_.lecture);
   return top;
 }
 

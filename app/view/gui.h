@@ -46,6 +46,8 @@ class Gui {
   /// Shows the gas alone and the controls with these names, as in the script log. A message names
   /// those that the scene lacks.
   void embed(std::vector<std::string> controls) { controls_.choose(std::move(controls)); }
+  /// Switches the sound of the gas on or off. If no device can be opened, a message says so.
+  void listen(bool on);
   /// Whether a place of the window shows the gas and no panel.
   bool shows_gas(float x, float y) const;
   /// Whether the gas has changes by hand that no file has.

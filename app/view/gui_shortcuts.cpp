@@ -107,6 +107,8 @@ void Gui::use_key(const KeyPress& press) {
       return panels_.toggle(Sheet::Plots);
     case 'r':
       return press.shift ? session_.restart_with_new_seed() : session_.restart();
+    case 's':
+      return listen(!session_.listens());
     case 't':
       return panels_.toggle(Sheet::Lesson);
     case 'v':

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <string>
+#include <vector>
 
+#include "engine/publish/played_stretch.h"
 #include "render/camera.h"
 
 namespace clatter {
@@ -20,6 +23,19 @@ class ScreenRecorder {
   virtual void add(int x, int y, Size size) = 0;
   /// Ends the film, and gives it to the user as a file with this name.
   virtual void end(const std::string& name) = 0;
+};
+
+/// Plays the sound of the gas in the window.
+class Loudspeaker {
+ public:
+  virtual ~Loudspeaker() = default;
+
+  /// Opens the device for sound. Throws RunError if there is none.
+  virtual void open() = 0;
+  /// Plays the stretches since the last call, see Frame::played. The device must be open.
+  virtual void play(const std::vector<std::shared_ptr<const PlayedStretch>>& played) = 0;
+  /// Closes the device, and ends the sound.
+  virtual void close() = 0;
 };
 
 /// The surroundings of the window: a desktop, or a page of a browser.
@@ -49,6 +65,8 @@ class Host {
   virtual bool has_processes() const = 0;
   /// The recorder of the window; nullptr: there is none.
   virtual ScreenRecorder* recorder() = 0;
+  /// The loudspeaker; nullptr: there is none.
+  virtual Loudspeaker* loudspeaker() = 0;
 };
 
 }  // namespace clatter

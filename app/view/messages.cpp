@@ -147,6 +147,7 @@ constexpr std::array<KeyLine, 32> kKeys = {{
     {"Drag a mark", "on the timeline: move a change to another time"},
     {"R   Shift + R", "restart; with a new seed"},
     {"+  −", "faster, slower"},
+    {"S", "sound of the collisions"},
     {"G", "gallery; / searches it"},
     {"[  ]", "previous scene, next scene"},
     {"Ctrl + Z   Ctrl + Y", "undo, redo"},

@@ -525,6 +525,12 @@ void Session::show_profile(Profiled what, Axis axis) {
   send(profiled_);
 }
 
+void Session::listen(bool on) {
+  listens_ = on;
+  log_.event("sound", {{"on", on}, {"command", sent_ + 1}});
+  send(command::Listen{on});
+}
+
 void Session::tell(const std::string& message) {
   message_ = message;
   ++told_;

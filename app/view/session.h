@@ -136,6 +136,10 @@ class Session {
   void set_view(const View& view);
   /// Sets the profile in later frames.
   void show_profile(Profiled what, Axis axis);
+  /// Later frames have the clicks of the gas that plays, or no longer.
+  void listen(bool on);
+  /// Whether frames have clicks.
+  bool listens() const { return listens_; }
   /// Later frames contain the last and next collision of this particle; absent: of none.
   void pick(std::optional<std::size_t> particle);
   /// Number of changes of the view.
@@ -190,6 +194,7 @@ class Session {
   bool plays_ = true;
   std::optional<double> jumped_to_;  // until the engine has answered
   command::ShowProfile profiled_ = {.what = Profiled::Nothing};
+  bool listens_ = false;
   std::optional<std::size_t> picked_;
   double speed_ = 1.0;
   std::uint64_t sent_ = 0;

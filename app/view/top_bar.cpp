@@ -138,32 +138,42 @@ void play_row(Session& session, Controls& controls) {
   step_row(session, controls);
 }
 
-bool top_bar(Session& session, Controls& controls, PanelVisibility& shown) {
+BarButton top_bar(Session& session, Controls& controls, PanelVisibility& shown, bool has_sound) {
   if (shown.narrow) {
     const float icon = 1.35f * ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x;
     gallery_button(session, controls, shown, ImGui::GetContentRegionMax().x - 3.0f * icon);
     play_button(session, controls);
     reset_button(session, controls);
     figures(session.frame(), controls);
-    return false;
+    return BarButton::None;
   }
+  BarButton pressed = BarButton::None;
   gallery_button(session, controls, shown, FLT_MAX);
   play_button(session, controls);
   step_buttons(session, controls);
   reset_button(session, controls);
   speed_field(session, controls);
+  if (has_sound) {
+    if (controls.button("sound", "Sound", "A click for each collision (S)", 0.0f,
+                        session.listens())) {
+      pressed = BarButton::Sound;
+    }
+    ImGui::SameLine();
+  }
   if (controls.button("plots", "Plots", "Curves of the run (P)")) shown.toggle(Sheet::Plots);
   ImGui::SameLine();
   if (controls.button("lesson", "Try this", "Goal and suggestions (T)")) {
     shown.toggle(Sheet::Lesson);
   }
   ImGui::SameLine();
-  const bool lectures = controls.button("lecture", "Lecture", "Large type, for a projector (L)");
+  if (controls.button("lecture", "Lecture", "Large type, for a projector (L)")) {
+    pressed = BarButton::Lecture;
+  }
   ImGui::SameLine();
   if (controls.button("help", "?", "Keys and mouse (F1)")) shown.toggle_help();
   ImGui::SameLine();
   figures(session.frame(), controls);
-  return lectures;
+  return pressed;
 }
 
 }  // namespace clatter

@@ -108,6 +108,7 @@ static void show(const WindowOptions& options) {
   {
     Gui gui(desktop, context.gl(), input, worker, log);
     gui.set_playlist(options.playlist);
+    if (options.sound) gui.listen(true);
     gui.open(options.scene, options.seed, options.until, options.beside);
     // Panels need several pictures after an event to settle.
     constexpr int kSettle = 4;

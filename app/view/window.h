@@ -18,6 +18,7 @@ struct WindowOptions {
   Size size = {1280, 800};             ///< size in screen units
   std::optional<double> until;         ///< simulation time at which the gas pauses; absent: none
   std::vector<PlaylistItem> playlist;  ///< empty: none; its first scene is `scene`
+  bool sound = false;                  ///< whether collisions are heard from the start
   std::string script_log;              ///< file for the log of events, see ScriptLog; empty: none
 };
 

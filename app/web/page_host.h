@@ -27,6 +27,7 @@ class PageHost final : public Host {
   bool has_processes() const override { return false; }
   std::string link_to(const std::string& fragment) const override;
   ScreenRecorder* recorder() override;
+  Loudspeaker* loudspeaker() override { return nullptr; }
 
  private:
   PageRecorder recorder_;

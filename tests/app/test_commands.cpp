@@ -196,7 +196,8 @@ TEST_CASE("Commands: every command explains its flags, and only those") {
     return flags;
   };
   const std::map<std::string, std::set<std::string>> commands = {
-      {"view", with(scene, {"--compare", "--size", "--backend", "--playlist", "--script-log"})},
+      {"view",
+       with(scene, {"--compare", "--size", "--backend", "--playlist", "--sound", "--script-log"})},
       {"render", with(with(scene, run),
                       {"--out",         "--quality", "--size",        "--fps",     "--from",
                        "--to",          "--speed",   "--supersample", "--shutter", "--no-overlay",

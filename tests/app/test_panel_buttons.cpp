@@ -59,9 +59,11 @@ TEST_CASE("Buttons: those of the record panel ask for what they are named after"
 
 TEST_CASE("Buttons: those of the top bar move the gas, change its speed and open their parts") {
   PanelVisibility shown;
-  bool lectures = false;
+  bool lectures = false, sounds = false, has_sound = true;
   PanelDriver driver(uneven_disks(), [&](Session& session, Controls& controls) {
-    lectures |= top_bar(session, controls, shown);
+    const BarButton pressed = top_bar(session, controls, shown, has_sound);
+    lectures |= pressed == BarButton::Lecture;
+    sounds |= pressed == BarButton::Sound;
   });
   const auto frame = [&]() -> const Frame& { return driver.session().frame(); };
   const double speed = frame().speed;
@@ -105,6 +107,13 @@ TEST_CASE("Buttons: those of the top bar move the gas, change its speed and open
   CHECK(parts() == std::array{true, false, false, true, false});
   tick(driver, "lecture");
   CHECK(parts() == std::array{true, false, false, true, true});
+
+  CHECK_FALSE(sounds);
+  tick(driver, "sound");
+  CHECK(sounds);
+  CHECK(says(text_of(driver), "[ Sound ]"));
+  has_sound = false;
+  CHECK_FALSE(says(text_of(driver), "[ Sound ]"));
 }
 
 TEST_CASE("Buttons: those of a comparison add, select and remove a gas") {

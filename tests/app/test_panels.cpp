@@ -31,6 +31,7 @@ TEST_CASE("Panels: the list of keys has each key beside its action") {
                "Drag a mark on the timeline: move a change to another time",
                "R Shift + R restart; with a new seed",
                "+ − faster, slower",
+               "S sound of the collisions",
                "G gallery; / searches it",
                "[ ] previous scene, next scene",
                "Ctrl + Z Ctrl + Y undo, redo",
@@ -209,7 +210,7 @@ TEST_CASE("Panels: the light of health is red after the run has stopped by itsel
   scene.contact_time.reset();
   PanelDriver driver(scene, [&](Session& of, Controls& controls) {
     session = &of;
-    top_bar(of, controls, shown);
+    top_bar(of, controls, shown, true);
   });
   const auto reasons = [&] {
     const auto [x, y, width, height] = driver.place("health");
@@ -331,8 +332,9 @@ TEST_CASE("Panels: the top bar of a narrow window keeps the title, play and rest
   Scene scene = uneven_disks();
   scene.title = "Uneven";
   PanelVisibility shown{.narrow = true};
-  PanelDriver driver(
-      scene, [&](Session& session, Controls& controls) { top_bar(session, controls, shown); });
+  PanelDriver driver(scene, [&](Session& session, Controls& controls) {
+    top_bar(session, controls, shown, true);
+  });
   CHECK(says(text_of(driver), "Uneven"));
   CHECK_FALSE(says(text_of(driver), "Plots"));
   tick(driver, "play");
@@ -347,8 +349,9 @@ TEST_CASE("Panels: the top bar shows the time and sets the speed in steps of the
   scene.title = "Uneven";
   scene.view.speed = 2.0;
   PanelVisibility shown;
-  PanelDriver driver(
-      scene, [&](Session& session, Controls& controls) { top_bar(session, controls, shown); });
+  PanelDriver driver(scene, [&](Session& session, Controls& controls) {
+    top_bar(session, controls, shown, true);
+  });
   const auto click = [&](const char* widget) {
     const auto [x, y, width, height] = driver.place(widget);
     driver.click(x + 0.5f * width, y + 0.5f * height);
