@@ -21,8 +21,8 @@ void visit(Archive& io, FilmRanges& ranges) {
 }
 
 /// Extents from the first averaging window of a film, that begins at the present time of the run:
-/// the largest values at its start and at the ends of its parts, and those of its average. The run stays
-/// where it is. `last` is the time of the last frame. Ends early at an interrupt.
+/// the largest values at its start and at the ends of its parts, and those of its average. The run
+/// stays where it is. `last` is the time of the last frame. Ends early at an interrupt.
 template <int D>
 RangeEnds first_extents(const ScheduledRun<D>& run, const Scene& scene, const View& view,
                         double exposure, double last);
