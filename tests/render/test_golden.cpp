@@ -10,8 +10,8 @@
 #include "engine/publish/scheduled_run.h"
 #include "engine/scene/scene_file.h"
 #include "render/camera_path.h"
-#include "render/context/egl_context.h"
 #include "render/layers/renderer.h"
+#include "tests/render/es_context.h"
 #include "tests/render/picture.h"
 
 // Pictures of nine scenes, kept in assets/golden. Where a change of the looks is meant,
@@ -228,14 +228,7 @@ TEST_CASE("Golden pictures: EGL draws them") {
 }
 
 TEST_CASE("Golden pictures: OpenGL ES 3.0 draws them, as WebGL 2 does") {
-  std::unique_ptr<GlContext> context;
-  try {
-    context = std::make_unique<EglContext>(Api::Es);
-  } catch (const RunError& error) {
-    MESSAGE("[skipped] " << error.what());
-    return;
-  }
-  compare(context->gl());
+  if (const auto context = open_es_context()) compare(context->gl());
 }
 
 TEST_CASE("Golden pictures: a disk a quarter of a pixel off is detected") {
