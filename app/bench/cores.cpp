@@ -42,7 +42,7 @@ CoresRate measure_rate(const Model<D>& model, const RunState<D>& start, double f
   Simulation<D> simulation(model, start);
   if (threads > 0) {
     simulation.use_threads(threads, tile_sizes(start.flights.size(), fraction, threads));
-    if (simulation.tiles() == 0) return {};
+    if (!simulation.foresight()) return {};
   }
   const auto began = std::chrono::steady_clock::now();
   const double cpu_before = cpu_seconds();

@@ -107,10 +107,11 @@ static void reorder(std::vector<T>& list, const std::vector<std::uint32_t>& orde
 
 template <int D>
 void EventLoop<D>::load(const ParticleStates<D>& gas, const Subdomain<D>& subdomain,
-                        TileRecord<D>& record, double time) {
+                        TileRecord<D>& record, double start, double end) {
   constexpr std::size_t kAhead = 16;
   const std::size_t count = record.numbers.size();
-  now_ = time;
+  now_ = start;
+  latest_ = end;
   record_ = &record;
   lower_ = subdomain.lower;
   until_base_moves_ = kNoLimit;
@@ -195,15 +196,22 @@ void EventLoop<D>::put_into_cell(std::size_t number) {
 
 template <int D>
 bool EventLoop<D>::plan(Preparation& work, const StopRequest& pause) {
-  const auto plan_next = [&](std::size_t number) {
-    const auto i = static_cast<std::uint32_t>(number);
-    Plan<D>& plan = plans_[i];
-    prediction_.plan({i, &plan}, now_);
-    if (plan.time < kNever) work.events.push_back({plan.time, i, plan.partner});
+  const std::size_t count = gas_.particles.size();
+  const auto plan_two = [&](std::size_t pair) {
+    const auto first = static_cast<std::uint32_t>(2 * pair);
+    prediction_.plan({first, &plans_[first]}, {first + 1, &plans_[first + 1]}, now_);
   };
-  work.events.reserve(gas_.particles.size());
-  if (!work.planning.advance(gas_.particles.size(), pause, plan_next)) return false;
-  queue_.rebuild(work.events);
+  if (!work.planning.advance(count / 2, pause, plan_two)) return false;
+  if (count % 2 != 0) {
+    const auto last = static_cast<std::uint32_t>(count - 1);
+    prediction_.plan({last, &plans_[last]}, now_);
+  }
+  std::vector<Event> events;
+  events.reserve(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (plans_[i].time <= latest_) events.push_back({plans_[i].time, i, plans_[i].partner});
+  }
+  queue_.rebuild(events);
   return true;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -51,12 +52,12 @@ class EventLoop {
   EventLoop(const EventLoop&) = delete;
   EventLoop& operator=(const EventLoop&) = delete;
 
-  /// Takes the particles of `record` from the gas of another loop, at a time on its base, and plans
-  /// their events. Orders them by cells. The run from there adds to the record. A particle that
-  /// leaves the subdomain has no more events, and its flight gets a number that no flight of the
-  /// gas has.
+  /// Takes the particles of `record` from the gas of another loop, at the time `start` on its base,
+  /// and plans their events up to the time `end`. Orders them by cells. The run from there adds to
+  /// the record. A particle that leaves the subdomain has no more events, and its flight gets a
+  /// number that no flight of the gas has.
   void load(const ParticleStates<D>& gas, const Subdomain<D>& subdomain, TileRecord<D>& record,
-            double time);
+            double start, double end);
 
   /// Work of place(), compare() and plan() that has been done.
   struct Preparation {
@@ -64,7 +65,6 @@ class EventLoop {
     std::optional<PausingLoop> fitted_placing;  ///< into cells that fit the crowding, if others do
     bool fitted = false;                        ///< whether the crowding is known
     double deepest_overlap = 0.0;               ///< as of Simulation::deepest_overlap
-    std::vector<Event> events;                  ///< the plans so far
   };
   /// Puts all particles into cells. Returns false at a request to pause. Throws PhysicalStop if a
   /// particle is outside of the box.
@@ -178,8 +178,9 @@ class EventLoop {
   Neighbourhood<D> near_;
   Prediction<D> prediction_;
   EventQueue queue_;
-  std::uint64_t until_base_moves_;    // physical events left
-  double fastest_;                    // speed limit, see fastest_speed()
+  double latest_ = std::numeric_limits<double>::max();  // time of the last events in the queue
+  std::uint64_t until_base_moves_;                      // physical events left
+  double fastest_;                                      // speed limit, see fastest_speed()
   std::optional<Watchdog> watchdog_;  // absent if the gas cannot collapse or diverge
   std::int64_t prefetched_bucket_ = 0;
   std::vector<Observer<D>*> observers_;
@@ -192,7 +193,7 @@ class EventLoop {
 template <int D>
 void EventLoop<D>::schedule(std::uint32_t particle) {
   const Plan<D>& plan = plans_[particle];
-  if (plan.time < kNever) queue_.push({plan.time, particle, plan.partner});
+  if (plan.time <= latest_) queue_.push({plan.time, particle, plan.partner});
 }
 
 extern template class EventLoop<2>;

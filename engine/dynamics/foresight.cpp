@@ -25,6 +25,10 @@ bool runs_in_tiles(int dimension, std::size_t particles, bool kicked, int thread
   return dimension == 2 && !kicked && threads > 1 && particles >= kLeast;
 }
 
+bool watched_runs_in_tiles(int threads) {
+  return threads >= 4;
+}
+
 TileSizes tile_sizes(std::size_t particles, double fraction, int threads) {
   constexpr double kTilesPerThread = 4.0;
   constexpr double kHaloOfFraction = 4.5;  // measured at 0.1 and 0.3
@@ -83,6 +87,7 @@ template <int D>
 void Foresight<D>::restart(double time) {
   end_ = time;
   fresh_ = true;
+  window_.reset();
   events_.clear();
   waiting_.clear();
   at_ = 0;
@@ -97,15 +102,20 @@ void Foresight<D>::pop() {
   }
 }
 
-// Calls work(k, bench) for k = 0 ... count - 1, on all threads.
+// Calls work(k, bench) for k = 0 ... count - 1, on all threads. At a stop request each thread
+// completes its call. Returns the number of calls.
 template <int D>
-void Foresight<D>::in_parallel(std::size_t count,
-                               const std::function<void(std::size_t, Bench&)>& work) {
+std::size_t Foresight<D>::in_parallel(std::size_t count,
+                                      const std::function<void(std::size_t, Bench&)>& work,
+                                      const StopRequest& stop) {
   std::atomic<std::size_t> next{0};
   std::vector<std::exception_ptr> errors(benches_.size());
   const auto take = [&](std::size_t thread) {
     try {
-      for (std::size_t k; (k = next.fetch_add(1)) < count;) work(k, *benches_[thread]);
+      for (std::size_t k; (k = next.fetch_add(1)) < count;) {
+        work(k, *benches_[thread]);
+        if (stop.made()) break;
+      }
     } catch (...) {
       errors[thread] = std::current_exception();
       next = count;
@@ -124,6 +134,7 @@ void Foresight<D>::in_parallel(std::size_t count,
   for (const std::exception_ptr& error : errors) {
     if (error) std::rethrow_exception(error);
   }
+  return std::min(next.load(), count);
 }
 
 // A counting sort of the numbers of all particles by block, ascending in each block.
@@ -254,37 +265,39 @@ void Foresight<D>::gather(const ParticleStates<D>& gas, const Tile& tile,
   }
 }
 
-// Runs the loop of a tile to the end of the window. Returns whether it gets there.
+// Runs the loop of a tile to the end of the window. Returns whether it gets there. A stop request
+// ends it only if the tile alone has as many collisions as a whole window should have.
 template <int D>
-bool Foresight<D>::finish(EventLoop<D>& loop, Round& round, Tile& tile) const {
+bool Foresight<D>::finish(EventLoop<D>& loop, Limits& limits, Tile& tile) const {
   constexpr std::uint64_t kSteps = 4096;  // between two looks at the other tiles
   using Halt = typename EventLoop<D>::Halt;
   tile.base_due = false;
-  for (std::uint64_t before = 0; !round.abandoned;) {
-    const Halt halt = loop.advance(round.end, kNoLimit, loop.counts().steps() + kSteps);
+  for (std::uint64_t before = 0; !limits.exceeded;) {
+    const Halt halt = loop.advance(window_->end, kNoLimit, loop.counts().steps() + kSteps);
     const std::uint64_t now = loop.counts().collisions();
-    const auto all = static_cast<double>(round.collisions += now - std::exchange(before, now));
+    const auto all = static_cast<double>(limits.collisions += now - std::exchange(before, now));
     if (halt == Halt::Time) return true;
     if (halt == Halt::BaseDue) tile.base_due = true;
-    if (all > round.most || round.stop.made()) round.abandoned = true;
+    const bool crowded = static_cast<double>(now * tiles_.size()) > limits.most;
+    if (all > limits.most || (crowded && limits.stop.made())) limits.exceeded = true;
   }
   return false;
 }
 
 template <int D>
-void Foresight<D>::run(const ParticleStates<D>& gas, Round& round, Tile& tile, Bench& bench) {
-  if (round.abandoned) return;
-  const double end = round.end;
+void Foresight<D>::run(const ParticleStates<D>& gas, Limits& limits, Tile& tile, Bench& bench) {
+  if (limits.exceeded) return;
+  const double end = window_->end;
   const Subdomain<D> subdomain = subdomain_of(tile);
   TileRecord<D>& record = bench.record;
   gather(gas, tile, subdomain, record);
   for (int axis = 0; axis < D; ++axis) record.cut[axis] = static_cast<float>(cut_[axis]);
   record.events.clear();
-  record.keeps_events = round.keep_events;
+  record.keeps_events = window_->keep_events;
   record.pair_collisions = record.wall_collisions = 0;
   EventLoop<D>& loop = bench.loop;
-  loop.load(gas, subdomain, record, end_);
-  if (!finish(loop, round, tile)) return;
+  loop.load(gas, subdomain, record, end_, end);
+  if (!finish(loop, limits, tile)) return;
   tile.pair_collisions = record.pair_collisions;
   tile.wall_collisions = record.wall_collisions;
   tile.checks = loop.checks();
@@ -398,8 +411,8 @@ double Foresight<D>::choose_end(const ParticleStates<D>& gas, double horizon, do
   return std::min(horizon, end_ + span);
 }
 
-// A round with more collisions, copies included, is abandoned. A window of the expected length has
-// a quarter of them.
+// A round with more collisions, copies included, fails. A window of the expected length has a
+// quarter of them.
 template <int D>
 double Foresight<D>::most_collisions() const {
   constexpr double kMore = 4.0;
@@ -425,55 +438,85 @@ void Foresight<D>::fit_halo() {
   halo_ = std::clamp(wanted, model_.diameter, std::max(edge_, model_.diameter));
 }
 
-// Runs all tiles to a time. Returns whether all have a certificate.
+// Begins a window. Returns whether it has a length.
 template <int D>
-bool Foresight<D>::run_tiles(const ParticleStates<D>& gas, double end, bool keep_events,
-                             const StopRequest& stop) {
-  constexpr int kRounds = 6;
-  constexpr double kWidest = 2.0;  // edges of a tile
+bool Foresight<D>::begin_window(const ParticleStates<D>& gas, double end, bool keep_events) {
   if (!(end > end_)) return false;
-  const double bend = model_.gravity.norm() * (end - end_) * (end - end_) / 8.0;
   sort_into_blocks(gas);
-  std::vector<std::size_t> todo(tiles_.size());
-  for (std::size_t k = 0; k < todo.size(); ++k) {
-    todo[k] = k;
+  window_ = {.end = end, .keep_events = keep_events, .todo = std::vector<std::size_t>(tiles())};
+  for (std::size_t k = 0; k < tiles(); ++k) {
+    window_->todo[k] = k;
     tiles_[k].halo = halo_;
   }
   ++work_.windows;
-  for (int number = 0; number < kRounds; ++number) {
-    Round round{end, keep_events, stop, most_collisions()};
-    in_parallel(todo.size(),
-                [&](std::size_t k, Bench& bench) { run(gas, round, tiles_[todo[k]], bench); });
-    work_.all += round.collisions;
-    if (round.abandoned) {
-      constexpr double kShorter = 1.0 / 16.0;
-      if (!stop.made()) span_ = kShorter * (end - end_);
-      return false;
-    }
-    work_.tiles += todo.size();
-    if (number > 0) work_.redone += todo.size();
-    double farthest = 0.0;
-    for (const Tile& tile : tiles_) farthest = std::max(farthest, tile.farthest);
-    in_parallel(tiles_.size(), [&](std::size_t k, Bench&) { certify(tiles_[k], farthest, bend); });
-    todo.clear();
-    for (std::size_t k = 0; k < tiles_.size(); ++k) {
-      if (tiles_[k].lack < 0.0) continue;
-      todo.push_back(k);
-      tiles_[k].halo = std::max(kGrowth * tiles_[k].halo, tiles_[k].halo + 1.2 * tiles_[k].lack);
-    }
-    if (number == 0) fit_halo();
-    if (todo.empty()) return true;
-    // Tiles that are mostly halo do not pay.
-    const bool pays =
-        std::ranges::all_of(todo, [&](std::size_t k) { return tiles_[k].halo <= kWidest * edge_; });
-    if (!pays) return false;
-  }
-  return false;
+  return true;
 }
 
-// Notes the rate of collisions in a window that is done.
+// Looks for the certificates of all tiles. Those without one run again, with wider halos.
 template <int D>
-void Foresight<D>::note_window(double end) {
+void Foresight<D>::certify_all(Window& window) {
+  const double span = window.end - end_;
+  const double bend = model_.gravity.norm() * span * span / 8.0;
+  double farthest = 0.0;
+  for (const Tile& tile : tiles_) farthest = std::max(farthest, tile.farthest);
+  in_parallel(tiles(), [&](std::size_t k, Bench&) { certify(tiles_[k], farthest, bend); });
+  for (std::size_t k = 0; k < tiles(); ++k) {
+    Tile& tile = tiles_[k];
+    if (tile.lack < 0.0) continue;
+    window.todo.push_back(k);
+    tile.halo = std::max(kGrowth * tile.halo, tile.halo + 1.2 * tile.lack);
+  }
+  if (window.rounds++ == 0) fit_halo();
+}
+
+// Runs the tiles of the window until all have a certificate.
+template <int D>
+typename Foresight<D>::Outcome Foresight<D>::run_rounds(const ParticleStates<D>& gas,
+                                                        const StopRequest& stop) {
+  constexpr int kRounds = 6;
+  constexpr double kWidest = 2.0;  // edges of a tile
+  std::vector<std::size_t>& todo = window_->todo;
+  while (!todo.empty() && window_->rounds < kRounds) {
+    // Tiles that are mostly halo do not pay.
+    if (std::ranges::any_of(todo, [&](std::size_t k) { return tiles_[k].halo > kWidest * edge_; }))
+      return Outcome::Failed;
+    Limits limits{stop, most_collisions()};
+    const std::size_t count = in_parallel(
+        todo.size(), [&](std::size_t k, Bench& bench) { run(gas, limits, tiles_[todo[k]], bench); },
+        stop);
+    work_.all += limits.collisions;
+    if (limits.exceeded) {
+      constexpr double kShorter = 1.0 / 16.0;
+      span_ = kShorter * (window_->end - end_);
+      return Outcome::Failed;
+    }
+    work_.tiles += count;
+    if (window_->rounds > 0) work_.redone += count;
+    todo.erase(todo.begin(), todo.begin() + static_cast<std::ptrdiff_t>(count));
+    if (!todo.empty()) return Outcome::Paused;
+    certify_all(*window_);
+  }
+  return todo.empty() ? Outcome::Done : Outcome::Failed;
+}
+
+// Runs the next window, or the rest of the interrupted one if it suits, up to `horizon` at most.
+template <int D>
+typename Foresight<D>::Outcome Foresight<D>::run_window(const ParticleStates<D>& gas,
+                                                        double horizon, double most,
+                                                        bool keep_events, const StopRequest& stop) {
+  const bool goes_on = window_ && window_->keep_events == keep_events && window_->end <= horizon;
+  if (!goes_on && !begin_window(gas, choose_end(gas, horizon, most), keep_events))
+    return Outcome::Failed;
+  const Outcome outcome = run_rounds(gas, stop);
+  if (outcome == Outcome::Failed) window_.reset();
+  return outcome;
+}
+
+// Ends a window whose tiles all have a certificate, and notes its rate of collisions.
+template <int D>
+void Foresight<D>::note_window() {
+  const double end = window_->end;
+  window_.reset();
   std::uint64_t found = 0;
   for (const Tile& tile : tiles_) found += tile.pair_collisions + tile.wall_collisions;
   work_.own += found;
@@ -484,35 +527,41 @@ void Foresight<D>::note_window(double end) {
 }
 
 template <int D>
-bool Foresight<D>::look_ahead(const ParticleStates<D>& gas, double horizon, std::uint64_t most,
-                              const StopRequest& stop) {
+typename Foresight<D>::Outcome Foresight<D>::look_ahead(const ParticleStates<D>& gas,
+                                                        double horizon, std::uint64_t most,
+                                                        const StopRequest& stop) {
   constexpr double kMore = 1.01;  // than the expected part of `most`
   const double start = end_;
-  const double end = choose_end(gas, horizon, kMore * static_cast<double>(most) + 1.0);
-  if (!run_tiles(gas, end, true, stop)) return false;
-  note_window(end);
-  merge(start, end);
-  return true;
+  const Outcome outcome =
+      run_window(gas, horizon, kMore * static_cast<double>(most) + 1.0, true, stop);
+  if (outcome != Outcome::Done) return outcome;
+  note_window();
+  merge(start, end_);
+  return outcome;
 }
 
 template <int D>
-bool Foresight<D>::advance(EventLoop<D>& gas, double horizon, std::uint64_t most,
-                           const StopRequest& stop) {
-  const double end = choose_end(gas.gas(), horizon, static_cast<double>(most));
-  if (!run_tiles(gas.gas(), end, false, stop)) return false;
+typename Foresight<D>::Outcome Foresight<D>::advance(EventLoop<D>& gas, double horizon,
+                                                     std::uint64_t most, const StopRequest& stop) {
+  const Outcome outcome = run_window(gas.gas(), horizon, static_cast<double>(most), false, stop);
+  if (outcome != Outcome::Done) return outcome;
   std::uint64_t pairs = 0, walls = 0;
   RunChecks checks;
+  bool base_due = false;
   for (const Tile& tile : tiles_) {
-    if (tile.base_due) return false;
+    base_due = base_due || tile.base_due;
     pairs += tile.pair_collisions;
     walls += tile.wall_collisions;
     checks.deepest_overlap = std::max(checks.deepest_overlap, tile.checks.deepest_overlap);
     checks.clock_steps_back = std::max(checks.clock_steps_back, tile.checks.clock_steps_back);
   }
-  if (pairs + walls >= most) return false;
-  note_window(end);
-  gas.adopt(ends_, end, pairs, walls, checks);
-  return true;
+  if (base_due || pairs + walls >= most) {
+    window_.reset();
+    return Outcome::Failed;
+  }
+  note_window();
+  gas.adopt(ends_, end_, pairs, walls, checks);
+  return outcome;
 }
 
 // Joins the tiles' events in order. Each part of the window is sorted by one thread.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/dynamics/boundary.h"
@@ -32,6 +33,10 @@ struct TileSizes {
 /// disks that no bulk driving kicks.
 bool runs_in_tiles(int dimension, std::size_t particles, bool kicked, int threads);
 
+/// Whether that holds also if an observer or the detection of collapse needs the events in order.
+/// One thread then processes all events, and fewer threads gain less than it costs.
+bool watched_runs_in_tiles(int threads);
+
 /// The best sizes for a gas of so many particles that fill a fraction of the box: each thread has
 /// several tiles. Influence travels farther in a dilute gas.
 TileSizes tile_sizes(std::size_t particles, double fraction, int threads);
@@ -51,6 +56,12 @@ class Foresight {
     std::uint64_t own = 0;     ///< collisions of own particles
     std::uint64_t all = 0;     ///< collisions of all particles, copies and abandoned runs included
   };
+  /// Result of the work on a window.
+  enum class Outcome {
+    Done,
+    Paused,  ///< at a stop request; the next call continues with the tiles that remain
+    Failed,  ///< without a certificate, or after far more events than expected
+  };
 
   /// Foresight for a number of particles. `model` and `boundary` must outlive it. It has one tile
   /// if the box is too small for several.
@@ -67,15 +78,16 @@ class Foresight {
   /// restart().
   bool covers(double time) const { return fresh_ ? end_ > time : end_ >= time; }
   /// Finds the events of the next window, but none after `horizon`. `gas` has had all earlier
-  /// events. `most` is the number of events for which the caller has use. Returns false without a
-  /// certificate, at a stop request, or if the window has far more events than expected.
-  bool look_ahead(const ParticleStates<D>& gas, double horizon, std::uint64_t most,
-                  const StopRequest& stop = {});
+  /// events. `most` is the number of events for which the caller has use. At a stop request each
+  /// thread completes its tile.
+  Outcome look_ahead(const ParticleStates<D>& gas, double horizon, std::uint64_t most,
+                     const StopRequest& stop = {});
   /// Runs `gas`, which has had all earlier events, through the next window, up to `horizon` at
-  /// most. Returns false, and changes nothing, as look_ahead() does, after more than `most`
+  /// most. Changes nothing unless the outcome is Done. Fails also after more than `most`
   /// collisions, or if the base would have to move. Only for gases without t_c that nobody
   /// observes.
-  bool advance(EventLoop<D>& gas, double horizon, std::uint64_t most, const StopRequest& stop = {});
+  Outcome advance(EventLoop<D>& gas, double horizon, std::uint64_t most,
+                  const StopRequest& stop = {});
   /// Number of collisions of a full window.
   double typical_window() const {
     return 0.5 * sizes_.collisions * static_cast<double>(order_.size());
@@ -123,14 +135,19 @@ class Foresight {
     bool base_due = false;  // whether a particle became too fast for the base
     double lack = 0.0;  // part of the halo's width that a certificate lacks; negative: certified
   };
-  // One run of tiles to the end of a window.
-  struct Round {
+  // A window whose tiles do not all have a certificate yet.
+  struct Window {
     double end;
     bool keep_events;
+    int rounds = 0;                 // that are complete
+    std::vector<std::size_t> todo;  // tiles that the present round has not run yet
+  };
+  // Limits of the work of tiles that run at the same time.
+  struct Limits {
     const StopRequest& stop;
     double most;  // collisions of all particles, copies included
     std::atomic<std::uint64_t> collisions{0};
-    std::atomic<bool> abandoned{false};  // at a stop request, or after too many collisions
+    std::atomic<bool> exceeded{false};
   };
   // The loop of one thread, which runs one tile after another.
   struct Bench {
@@ -140,21 +157,25 @@ class Foresight {
     std::vector<std::uint32_t> offsets;
   };
 
-  void in_parallel(std::size_t count, const std::function<void(std::size_t, Bench&)>& work);
+  std::size_t in_parallel(std::size_t count, const std::function<void(std::size_t, Bench&)>& work,
+                          const StopRequest& stop = {});
   double choose_end(const ParticleStates<D>& gas, double horizon, double most) const;
   double speed_scale(const ParticleStates<D>& gas) const;
   double most_collisions() const;
-  bool run_tiles(const ParticleStates<D>& gas, double end, bool keep_events,
-                 const StopRequest& stop);
+  Outcome run_window(const ParticleStates<D>& gas, double horizon, double most, bool keep_events,
+                     const StopRequest& stop);
+  bool begin_window(const ParticleStates<D>& gas, double end, bool keep_events);
+  Outcome run_rounds(const ParticleStates<D>& gas, const StopRequest& stop);
+  void certify_all(Window& window);
   void sort_into_blocks(const ParticleStates<D>& gas);
   Subdomain<D> subdomain_of(Tile& tile) const;
   void gather(const ParticleStates<D>& gas, const Tile& tile, const Subdomain<D>& subdomain,
               TileRecord<D>& record) const;
-  void run(const ParticleStates<D>& gas, Round& round, Tile& tile, Bench& bench);
-  bool finish(EventLoop<D>& loop, Round& round, Tile& tile) const;
+  void run(const ParticleStates<D>& gas, Limits& limits, Tile& tile, Bench& bench);
+  bool finish(EventLoop<D>& loop, Limits& limits, Tile& tile) const;
   void certify(Tile& tile, double farthest, double bend) const;
   void fit_halo();
-  void note_window(double end);
+  void note_window();
   void merge(double start, double end);
 
   const Model<D>& model_;
@@ -173,6 +194,7 @@ class Foresight {
   ParticleStates<D> ends_;                       // [N] at the end of the window
   LargeArray<float> strayed_;                    // [N]
   double end_ = 0.0;                             // of the last window, on the base
+  std::optional<Window> window_;                 // that a stop request has interrupted
   bool fresh_ = true;                            // no window since restart()
   double rate_ = 0.0;                            // collisions per time; 0: unknown
   double span_ = 0.0;  // of the last window, or a small part of one that was too long; 0: unknown

@@ -166,7 +166,8 @@ void Simulation<D>::move_base() {
 template <int D>
 void Simulation<D>::choose_way() {
   if (in_tiles_) failures_ = 0;
-  in_tiles_ = foresight_ && --until_tried_ <= 0;
+  const bool allowed = foresight_ && (watched_in_tiles_ || !loop_.is_watched());
+  in_tiles_ = allowed && --until_tried_ <= 0;
   if (in_tiles_) {
     loop_.drop_plans();
     foresight_->restart(loop_.now());
@@ -192,6 +193,7 @@ void Simulation<D>::use_threads(int threads) {
   const auto count = static_cast<double>(particles().size());
   const double fraction = count * packing_fraction(D, model_.diameter) / model_.box.prod();
   use_threads(threads, tile_sizes(particles().size(), fraction, threads));
+  watched_in_tiles_ = watched_runs_in_tiles(threads);
 }
 
 template <int D>
@@ -200,7 +202,8 @@ void Simulation<D>::use_threads(int threads, const TileSizes& sizes) {
       std::make_unique<Foresight<D>>(model_, boundary_, particles().size(), threads, sizes);
   if (foresight_->tiles() < 2) foresight_.reset();
   until_tried_ = 0;
-  choose_way();
+  watched_in_tiles_ = true;
+  way_is_open_ = foresight_ || in_tiles_;
 }
 
 template <int D>
@@ -211,8 +214,8 @@ typename EventLoop<D>::Halt Simulation<D>::advance(double stop, std::uint64_t co
                    : loop_.advance(stop, collisions, steps);
 }
 
-// Advances by a whole window of the tiles, if nothing needs its events in order. Returns whether it
-// has.
+// Advances by a whole window of the tiles, if nothing needs its events in order. Returns false if
+// that is impossible. At a stop request the window may be incomplete.
 template <int D>
 bool Simulation<D>::advance_window(double stop, std::uint64_t collisions, std::uint64_t steps,
                                    const StopRequest& stop_request) {
@@ -224,7 +227,7 @@ bool Simulation<D>::advance_window(double stop, std::uint64_t collisions, std::u
   if (static_cast<double>(most) < kReserve * foresight_->typical_window()) return false;
   const double horizon = std::min(stop, next_kick());
   return foresight_->fits_before(horizon) &&
-         foresight_->advance(loop_, horizon, most, stop_request);
+         foresight_->advance(loop_, horizon, most, stop_request) != Foresight<D>::Outcome::Failed;
 }
 
 template <int D>
@@ -238,12 +241,11 @@ typename EventLoop<D>::Halt Simulation<D>::follow_foresight(double stop, std::ui
     const ForeseenEvent<D>* next = foresight_->next(is_next);
     if (!next) {
       if (foresight_->covers(stop)) return Halt::Time;
-      if (!foresight_->look_ahead(loop_.gas(), next_kick(), loop_.until_base_moves(),
-                                  stop_request)) {
-        leave_tiles();
-        return Halt::Limit;
-      }
-      continue;
+      const auto outcome =
+          foresight_->look_ahead(loop_.gas(), next_kick(), loop_.until_base_moves(), stop_request);
+      if (outcome == Foresight<D>::Outcome::Done) continue;
+      if (outcome == Foresight<D>::Outcome::Failed) leave_tiles();
+      return Halt::Limit;
     }
     if (next->event.time > stop) return Halt::Time;
     foresight_->look_past(
@@ -283,6 +285,7 @@ bool Simulation<D>::run_until(double time, std::uint64_t collisions, std::uint64
   using Halt = typename EventLoop<D>::Halt;
   constexpr std::uint64_t kStepsPerLook = 1000;  // at the request
   if (!prepare(stop_request)) return false;
+  if (std::exchange(way_is_open_, false)) choose_way();
   while (!stop_request.made()) {
     const double end = clock_.relative(time);
     Timer* timer = due_timer(end);

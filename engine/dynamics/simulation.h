@@ -45,15 +45,16 @@ class Simulation {
   /// Prepares the particles in parts for the run. Returns false at a request to pause, and true
   /// once all is done. Throws PhysicalStop as the constructors do.
   bool prepare(const StopRequest& pause);
-  /// Uses up to so many threads from now on, if runs_in_tiles(). The run has the same bits with any
+  /// Uses up to so many threads from now on, if runs_in_tiles() and, for a watched gas,
+  /// watched_runs_in_tiles(). The run has the same bits with any
   /// number of threads.
   void use_threads(int threads);
   /// The same for a gas of any size, with these sizes of its tiles.
   void use_threads(int threads, const TileSizes& sizes);
   /// The tiles; null: the gas runs as a whole on one thread.
   const Foresight<D>* foresight() const { return foresight_.get(); }
-  /// Number of the tiles; 0 without tiles.
-  std::size_t tiles() const { return foresight_ ? foresight_->tiles() : 0; }
+  /// Number of the tiles that run the gas now; 0: it runs as a whole.
+  std::size_t tiles() const { return in_tiles_ ? foresight_->tiles() : 0; }
 
   /// Processes every event up to and at a simulation time, timers included, and returns true. Halts
   /// earlier and returns false once the run has had `collisions` with particles and walls, or
@@ -152,8 +153,10 @@ class Simulation {
   std::unique_ptr<Preparation> preparation_;  // null: complete
   std::unique_ptr<Foresight<D>> foresight_;   // null: one thread, or a small gas
   bool in_tiles_ = false;                     // whether foresight_ finds the events now
-  int failures_ = 0;     // bases in succession on which tiles had no certificate
-  int until_tried_ = 0;  // moves of the base before tiles are tried again
+  int failures_ = 0;               // bases in succession on which tiles had no certificate
+  int until_tried_ = 0;            // moves of the base before tiles are tried again
+  bool watched_in_tiles_ = false;  // whether tiles also run a gas that is watched
+  bool way_is_open_ = false;       // whether choose_way() is due
 };
 
 extern template class Simulation<2>;
