@@ -97,6 +97,7 @@ void CellGrid<D>::insert(std::uint32_t particle, const IntVec<D>& cell) {
 
 template <int D>
 void CellGrid<D>::fill(const std::vector<IntVec<D>>& cells, std::vector<std::uint32_t>& order) {
+  // The particles of a cell have the numbers from starts[index] on, up to those of the next cell.
   std::vector<std::uint32_t> starts(lists_.size() + 1);
   for (const IntVec<D>& cell : cells) ++starts[index(cell) + 1];
   for (std::size_t k = 1; k < starts.size(); ++k) starts[k] += starts[k - 1];
@@ -105,22 +106,52 @@ void CellGrid<D>::fill(const std::vector<IntVec<D>>& cells, std::vector<std::uin
   for (std::uint32_t k = 0; k < cells.size(); ++k) order[places[index(cells[k])]++] = k;
   IntVec<D> cell = IntVec<D>::Zero();
   for (List& list : lists_) {
-    visit_lists<D - 1>(about(cell), 0, 0, [&](std::uint32_t near, Neighbour wrap) {
-      // The wrap of this cell seen from there is the negative of that of there seen from here.
-      constexpr Neighbour kOnes =
-          D == 2 ? 0b0101u << kParticleBits<2> : 0b010101u << kParticleBits<3>;
-      const Neighbour opposite = wrap ^ ((wrap & kOnes) << 1);
-      list.wraps = list.wraps || (opposite != 0 && starts[near] < starts[near + 1]);
-      for (std::uint32_t particle = starts[near]; particle < starts[near + 1]; ++particle) {
-        if (list.count < kCapacity) [[likely]] {
-          list.neighbours[list.count++] = particle | opposite;
-        } else {
-          continuations_.put_on(list, particle | opposite);
-        }
-      }
-    });
+    if (!fill_by_rows(list, cell, starts)) fill_by_cells(list, cell, starts);
     for (int axis = 0; axis < D && ++cell[axis] == counts_[axis]; ++axis) cell[axis] = 0;
   }
+}
+
+// Fills the list of a cell that has all its neighbours without a wrap. Three cells in a row hold
+// successive numbers. A row is written in one piece of constant length, because the number of its
+// particles is unpredictable. Returns false, and changes nothing, for other cells, and for lists or
+// rows that are too long.
+template <int D>
+bool CellGrid<D>::fill_by_rows(List& list, const IntVec<D>& cell,
+                               const std::vector<std::uint32_t>& starts) const {
+  constexpr std::uint32_t kPiece = 8;
+  for (int axis = 0; axis < D; ++axis) {
+    if (cell[axis] == 0 || cell[axis] == counts_[axis] - 1) return false;
+  }
+  std::array<Neighbour, kCapacity + kPiece> neighbours;
+  std::uint32_t count = 0;
+  bool fits = true;
+  visit_lists<D - 1>(row(cell, 0, cell[0] - 1), 0, 0, [&](std::uint32_t first, Neighbour) {
+    const std::uint32_t start = starts[first], size = starts[first + 3] - start;
+    for (std::uint32_t k = 0; k < kPiece; ++k) neighbours[count + k] = start + k;
+    fits = fits && size <= kPiece && count + size <= kCapacity;
+    count += fits ? size : 0;
+  });
+  if (!fits) return false;
+  for (std::uint32_t k = 0; k < kCapacity; ++k) {
+    list.neighbours[k] = k < count ? neighbours[k] : kNobody;
+  }
+  list.count = static_cast<std::uint16_t>(count);
+  return true;
+}
+
+// Fills the list of any cell.
+template <int D>
+void CellGrid<D>::fill_by_cells(List& list, const IntVec<D>& cell,
+                                const std::vector<std::uint32_t>& starts) {
+  visit_lists<D - 1>(about(cell), 0, 0, [&](std::uint32_t near, Neighbour wrap) {
+    // The wrap of this cell seen from there is the negative of that of there seen from here.
+    constexpr Neighbour kOnes =
+        D == 2 ? 0b0101u << kParticleBits<2> : 0b010101u << kParticleBits<3>;
+    const Neighbour opposite = wrap ^ ((wrap & kOnes) << 1);
+    for (std::uint32_t particle = starts[near]; particle < starts[near + 1]; ++particle) {
+      continuations_.put_on(list, particle | opposite);
+    }
+  });
 }
 
 template <int D>

@@ -138,6 +138,9 @@ class CellGrid {
   template <int Axis, typename Visit>
   void visit_lists(const Block& block, std::uint32_t index, Neighbour wrap,
                    const Visit& visit) const;
+  bool fill_by_rows(List& list, const IntVec<D>& cell,
+                    const std::vector<std::uint32_t>& starts) const;
+  void fill_by_cells(List& list, const IntVec<D>& cell, const std::vector<std::uint32_t>& starts);
   std::uint32_t index(const IntVec<D>& cell) const;
   Exit exit_falling(const Model<D>& model, const Flight<D>& flight, const Vec<D>& image,
                     const IntVec<D>& cell, int axis, double now) const;

@@ -22,8 +22,9 @@ void EventQueue::spread(std::vector<Event>& events, std::size_t first) {
   for (auto& bucket : buckets_) bucket.clear();
   in_buckets_ = in_rows_ = 0;
   rows_.assign(kRows, nullptr);
-  chunks_.clear();
   spare_ = nullptr;
+  if (events.empty()) chunks_.clear();
+  for (Chunk& chunk : chunks_) chunk.next = std::exchange(spare_, &chunk);
   later_.clear();
   free_memory(arrived_);  // a burst may have taken much
   bucket_ = 0;

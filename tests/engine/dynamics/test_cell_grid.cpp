@@ -239,3 +239,25 @@ TEST_CASE("CellGrid: every image within one diameter is found exactly once") {
   }
   CHECK(overhanging > 10000);
 }
+
+TEST_CASE("CellGrid: filled lists hold the same particles as lists of inserted particles") {
+  Random random(41, Stream::Kick, 0, 0);
+  for (int round = 0; round < 600; ++round) {
+    const Model<2> model = random_box(random);
+    // Up to two particles per cell on average: rows and lists of all lengths occur.
+    CellGrid<2> filled(model, 1.0 + 80.0 * random.uniform()), inserted = filled;
+    std::vector<IntVec<2>> cells;
+    const int count = static_cast<int>(random.below(2 * filled.counts().prod() + 1));
+    for (int i = 0; i < count; ++i) {
+      cells.push_back(filled.cell_at(random_place(model, filled, random)));
+    }
+    std::vector<std::uint32_t> order;
+    filled.fill(cells, order);
+    REQUIRE(order.size() == cells.size());
+    for (std::uint32_t k = 0; k < order.size(); ++k) inserted.insert(k, cells[order[k]]);
+    for (const IntVec<2>& cell : cells) {
+      CHECK(near(filled, cell) == near(inserted, cell));
+      CHECK(wraps_are_told(filled, cell));
+    }
+  }
+}
