@@ -1,92 +1,27 @@
 #include "app/runs/frame_times.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include "engine/publish/pace_curve.h"
 
 namespace clatter {
 
-namespace {
-
-constexpr double kNever = std::numeric_limits<double>::infinity();
-
-// A stretch of simulation time, with the factors at its begin and at its end. The factor changes at
-// a constant rate in the film, so that its square is linear in simulation time. Square roots are
-// exact to the last bit on all processors, logarithms are not.
-struct Stretch {
-  double begin, end;
-  double factor, last_factor;
-
-  double factor_at(double time) const {
-    if (end == kNever) return factor;
-    const double share = std::clamp((time - begin) / (end - begin), 0.0, 1.0);
-    return std::sqrt((1.0 - share) * factor * factor + share * last_factor * last_factor);
-  }
-  // Integral of 1/factor from the begin to a time.
-  double integral(double time) const { return 2.0 * (time - begin) / (factor + factor_at(time)); }
-  // The time at which the integral has a value.
-  double time_at(double value) const {
-    if (end == kNever) return begin + factor * value;
-    const double squares = last_factor * last_factor - factor * factor;
-    return std::min(begin + value * (factor + 0.25 * squares / (end - begin) * value), end);
-  }
-};
-
-// The stretches from a time on. The factor is constant before the first key and after the last.
-std::vector<Stretch> stretches_from(double from, const std::vector<PaceKey>& pace) {
-  if (pace.empty()) return {{from, kNever, 1.0, 1.0}};
-  std::vector<Stretch> stretches;
-  PaceKey before{0.0, pace.front().factor};
-  for (const PaceKey& key : pace) {
-    if (key.time > from) {
-      const Stretch whole{before.time, key.time, before.factor, key.factor};
-      const double begin = std::max(from, before.time);
-      stretches.push_back({begin, key.time, whole.factor_at(begin), key.factor});
-    }
-    before = key;
-  }
-  stretches.push_back({std::max(from, before.time), kNever, before.factor, before.factor});
-  return stretches;
-}
-
-}  // namespace
-
 double FrameTimes::of(long frame) const {
-  return time_at(static_cast<double>(frame) * (speed / fps));
+  return PaceCurve(pace).time_after(from, static_cast<double>(frame) * (speed / fps));
 }
 
 double FrameTimes::time_after(double seconds) const {
-  return time_at(seconds * speed);
-}
-
-double FrameTimes::time_at(double integral) const {
-  if (pace.empty()) return from + integral;
-  const std::vector<Stretch> stretches = stretches_from(from, pace);
-  for (std::size_t k = 0; k + 1 < stretches.size(); ++k) {
-    const double whole = stretches[k].integral(stretches[k].end);
-    if (integral <= whole) return stretches[k].time_at(integral);
-    integral -= whole;
-  }
-  return stretches.back().time_at(integral);
+  return PaceCurve(pace).time_after(from, seconds * speed);
 }
 
 double FrameTimes::seconds_at(double time) const {
-  double sum = 0.0;
-  for (const Stretch& stretch : stretches_from(from, pace)) {
-    sum += stretch.integral(std::min(time, stretch.end));
-    if (time <= stretch.end) break;
-  }
-  return sum / speed;
+  return PaceCurve(pace).playing_time(from, time) / speed;
 }
 
 double FrameTimes::speed_at(double time) const {
-  return speed * stretches_from(time, pace).front().factor;
+  return speed * PaceCurve(pace).factor_at(time);
 }
 
 double FrameTimes::largest_speed() const {
-  double factor = pace.empty() ? 1.0 : 0.0;
-  for (const PaceKey& key : pace) factor = std::max(factor, key.factor);
-  return speed * factor;
+  return speed * PaceCurve(pace).largest_factor();
 }
 
 }  // namespace clatter

@@ -27,10 +27,6 @@ struct FrameTimes {
   double speed_at(double time) const;
   /// The largest speed_at() of any time.
   double largest_speed() const;
-
- private:
-  /// The time up to which the integral of 1/factor from `from` on has a value.
-  double time_at(double integral) const;
 };
 
 }  // namespace clatter

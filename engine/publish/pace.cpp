@@ -1,12 +1,22 @@
 #include "engine/publish/pace.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace clatter {
 
 void Pace::set_speed(double speed) {
   speed_ = speed;
   restart();
+}
+
+void Pace::set_factors(const std::vector<PaceKey>& keys) {
+  std::vector<PaceKey> both;
+  for (auto key = keys.rbegin(); key != keys.rend(); ++key) {
+    if (key->time > 0.0) both.push_back({-key->time, key->factor});
+  }
+  both.insert(both.end(), keys.begin(), keys.end());
+  curve_ = PaceCurve(std::move(both));
 }
 
 void Pace::restart() {
@@ -26,7 +36,7 @@ Pace::Goal Pace::next(Clock::time_point now, double time) {
     due_ = std::max(due_, now);
     goal_ = time;
   }
-  goal_ += speed_ * std::chrono::duration<double>(frame_).count();
+  goal_ = curve_.time_after(goal_, speed_ * std::chrono::duration<double>(frame_).count());
   return {due_, goal_};
 }
 
@@ -36,7 +46,8 @@ void Pace::observe(Clock::time_point now, double time) {
   if (seconds < kLong) return;
   // Without one frame's time: a late start of the last frame does not mean that the engine is slow.
   const double frame = std::chrono::duration<double>(frame_).count();
-  held_ = std::min(1.0, (time - time_then_) / (speed_ * std::max(kLong, seconds - frame)));
+  const double played = curve_.playing_time(time_then_, time) / speed_;
+  held_ = std::min(1.0, played / std::max(kLong, seconds - frame));
   observed_since_ = now;
   time_then_ = time;
 }

@@ -1,11 +1,15 @@
 #pragma once
 
 #include <chrono>
+#include <vector>
+
+#include "engine/publish/pace_curve.h"
 
 namespace clatter {
 
 /// Couples simulation time to real time: gives for each frame the real time at which it is due and
-/// its simulation time. A delay is dropped and not caught up later.
+/// its simulation time. A delay is dropped and not caught up later. A gas that plays backwards has
+/// negative times, which increase.
 class Pace {
  public:
   using Clock = std::chrono::steady_clock;
@@ -26,6 +30,11 @@ class Pace {
   void set_speed(double speed);
   /// The speed of set_speed(), initially 1.
   double speed() const { return speed_; }
+  /// Sets the factors of the speed: keys in order of time, >= 0; empty: 1. They hold in both
+  /// directions.
+  void set_factors(const std::vector<PaceKey>& keys);
+  /// The speed at a simulation time, with its factor.
+  double speed_at(double time) const { return speed_ * curve_.factor_at(time); }
   /// The next frame, at the real time `now` and the simulation time `time`.
   Goal next(Clock::time_point now, double time);
   /// To be called after a halt: the next frame starts a new sequence.
@@ -39,6 +48,7 @@ class Pace {
 
   Clock::duration frame_;
   double speed_ = 1.0;
+  PaceCurve curve_;  // of negative times too
   bool running_ = false;
   Clock::time_point due_;
   double goal_ = 0.0;

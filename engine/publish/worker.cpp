@@ -333,6 +333,7 @@ class EngineWork {
     gases_->listen(listens_);
     ++laws_;
     pace_.set_speed(asked.scene.view.speed);
+    pace_.set_factors(asked.scene.view.pace);
     plays_ = asked.plays;
     until_ = std::numeric_limits<double>::infinity();
     ++runs_;
@@ -452,8 +453,8 @@ class EngineWork {
     const bool arrived = advance(time, kNoLimit, due);
     if (played_.size() == kMostStretches) played_.erase(played_.begin());
     played_.push_back(std::make_shared<const PlayedStretch>(PlayedStretch{
-        ++stretches_, from, this->time(), pace_.speed() * std::max(kLeastHeld, pace_.held()), laws_,
-        gases_->take_clicks()}));
+        ++stretches_, from, this->time(), pace_.speed_at(from) * std::max(kLeastHeld, pace_.held()),
+        laws_, gases_->take_clicks()}));
     return arrived;
   }
 

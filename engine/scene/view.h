@@ -67,10 +67,11 @@ struct CameraKey {
   std::optional<double> elevation = {};  ///< of spheres, degrees; absent: as View::elevation
 };
 
-/// A key of the pace of films. Between two keys the factor changes at a constant rate in the film.
+/// A key of the pace of films and of the window. Between two keys the factor changes at a constant
+/// rate while the gas plays.
 struct PaceKey {
   double time = 0.0;    ///< simulation time, >= 0
-  double factor = 1.0;  ///< speed of the film over View::speed, > 0
+  double factor = 1.0;  ///< of View::speed, > 0
 };
 
 /// A text over pictures, for some time.

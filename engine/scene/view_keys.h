@@ -39,9 +39,10 @@ void visit_camera(Visitor& io, CameraKey& key, int dimension) {
   }
 }
 
-inline constexpr auto kPaceKeys = key_table(
-    "render", {{"time", "t", "Simulation time at which the film has this pace. Times increase."},
-               {"factor", "1", "Factor of the film's speed: below 1 slow motion."}});
+inline constexpr auto kPaceKeys =
+    key_table("view render",
+              {{"time", "t", "Simulation time at which the pace has this factor. Times increase."},
+               {"factor", "1", "Factor of the speed: below 1 slow motion."}});
 
 /// The keys of one item of [[view.pace]].
 template <class Visitor>

@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "engine/publish/pace.h"
 
 using namespace clatter;
@@ -46,4 +48,32 @@ TEST_CASE("Pace: time that an engine cannot hold is given up, and reported") {
   CHECK(goal.time == doctest::Approx(time + 0.08));
   pace.restart();
   CHECK(pace.held() == 1.0);
+}
+
+TEST_CASE("Pace: factors change the speed in both directions") {
+  // Factor 1 up to t = 10, a quarter from 11 on; between them its square is linear.
+  Pace pace(50.0);
+  pace.set_speed(2.0);
+  pace.set_factors({{10.0, 1.0}, {11.0, 0.25}});
+  CHECK(pace.speed_at(9.0) == 2.0);
+  CHECK(pace.speed_at(12.0) == 0.5);
+  CHECK(pace.speed_at(-9.0) == 2.0);
+  CHECK(pace.speed_at(-12.0) == 0.5);
+  const double middle = 2.0 * std::sqrt(0.5 * (1.0 + 0.0625));
+  CHECK(pace.speed_at(10.5) == doctest::Approx(middle));
+  CHECK(pace.speed_at(-10.5) == doctest::Approx(middle));
+  double time = 9.9;
+  for (int frame = 0; frame < 100; ++frame) {
+    const double next = pace.next(at(0.02 * frame), time).time;
+    const double mean = 0.5 * (pace.speed_at(time) + pace.speed_at(next));
+    CHECK(next - time == doctest::Approx(0.02 * mean).epsilon(0.01));
+    time = next;
+  }
+  CHECK(time > 11.0);
+  CHECK(pace.held() == doctest::Approx(1.0).epsilon(0.01));
+  // Back over the same stretch in the same number of frames.
+  pace.restart();
+  double back = -time;
+  for (int frame = 0; frame < 100; ++frame) back = pace.next(at(10.0 + 0.02 * frame), back).time;
+  CHECK(-back == doctest::Approx(9.9).epsilon(1e-9));
 }
