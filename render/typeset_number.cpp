@@ -19,4 +19,10 @@ std::string typeset_number(const std::string& number) {
   return number.substr(0, e) + "×" + power_text(std::stoi(number.substr(e + 1)));
 }
 
+std::string grouped_digits(std::uint64_t number) {
+  std::string digits = std::to_string(number);
+  for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3) digits.insert(at, "\u2009");
+  return digits;
+}
+
 }  // namespace clatter

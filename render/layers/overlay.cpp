@@ -32,7 +32,8 @@ struct Page {
   ThemeColours theme;
   Size size;             // size of the picture
   Margins margins;       // margins of the text
-  float edge = 0.0f;     // from the edge of the picture to the text, pixels
+  float edge = 0.0f;     // from the upper and lower edge of the picture to the text, pixels
+  float left = 0.0f;     // from the left edge of the picture to the text, pixels
   float wrap = 0.0f;     // longest line of the heading, pixels
   float heading = 0.0f;  // from the upper edge of the picture to the end of the heading, pixels
   float caption = 0.0f;  // from the upper edge of the picture to the caption, pixels
@@ -69,8 +70,8 @@ Page arrange(Arrangement arrangement, const Fonts& fonts, const ThemeColours& th
              const View& view, const Legends& legends, const OverlayText& text) {
   const float unit = fonts.unit(), edge = std::round(kEdge * unit);
   const bool column = arrangement == Arrangement::Column;
-  Page page{
-      arrangement, fonts, theme, size, {}, edge, column ? kColumn * unit : size.width - 2 * edge};
+  Page page{arrangement, fonts, theme, size,
+            {},          edge,  edge,  column ? kColumn * unit : size.width - 2 * edge};
   float end = page.caption = edge;
   if (!text.title.empty()) {
     float height = text_extent(*fonts.title, text.title, page.wrap).y;
@@ -98,9 +99,20 @@ Page arrange(Arrangement arrangement, const Fonts& fonts, const ThemeColours& th
   return page;
 }
 
-// The arrangement that shows the box larger.
+// Moves a column next to a box that leaves free width, so that both are in the middle.
+void gather(Page& page, const Faces& faces) {
+  const Camera camera = Camera::fit(faces.low, faces.high, page.size, page.margins);
+  const double box = (faces.high - faces.low).x() * page.size.width / camera.width;
+  const double free = page.size.width - page.margins.left - box - page.margins.right;
+  const double each = std::floor(0.5 * std::max(0.0, free));
+  page.left += static_cast<float>(each);
+  page.margins.left += each;
+  page.margins.right += each;
+}
+
+// The arrangement that shows the box larger. `whole`: the whole box is inside the margins.
 Page arrange(const Snapshot& snapshot, const Fonts& fonts, const ThemeColours& theme, Size size,
-             const View& view, const Legends& legends, const OverlayText& text) {
+             const View& view, const Legends& legends, const OverlayText& text, bool whole) {
   // A box of spheres may be turned: a square stands for it.
   const Faces faces =
       snapshot.box.size() == 2 ? outermost_faces(snapshot) : Faces{Vec2(0.0, 0.0), Vec2(1.0, 1.0)};
@@ -108,8 +120,11 @@ Page arrange(const Snapshot& snapshot, const Fonts& fonts, const ThemeColours& t
     return Camera::fit(faces.low, faces.high, size, page.margins).width;
   };
   const Page rows = arrange(Arrangement::Rows, fonts, theme, size, view, legends, text);
-  const Page column = arrange(Arrangement::Column, fonts, theme, size, view, legends, text);
-  return shown_width(column) < shown_width(rows) ? column : rows;
+  Page column = arrange(Arrangement::Column, fonts, theme, size, view, legends, text);
+  if (!(shown_width(column) < shown_width(rows))) return rows;
+  // Texts do not move with the camera of a film, nor with spheres that turn.
+  if (whole && snapshot.box.size() == 2 && view.camera.empty()) gather(column, faces);
+  return column;
 }
 
 // printf rather than libfmt, which formats 213 with "#.3g" as 213.0.
@@ -117,13 +132,6 @@ std::string formatted(const char* format, double value) {
   char text[64];
   std::snprintf(text, sizeof text, format, value);
   return text;
-}
-
-// A number with a thin space between groups of three digits.
-std::string grouped(std::uint64_t value) {
-  std::string digits = std::to_string(value);
-  for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3) digits.insert(at, "\u2009");
-  return digits;
 }
 
 ImU32 with_opacity(Colour colour, double opacity) {
@@ -151,12 +159,12 @@ void draw_heading(ImDrawList& list, const OverlayText& text, const Page& page) {
   const ImVec2 caption = text_extent(*page.fonts.text, text.caption, page.wrap);
   if (!text.title.empty() || !text.caption.empty()) {
     const float end = text.caption.empty() ? page.edge + title.y : page.caption + caption.y;
-    draw_plate(list, ImVec2(page.edge, page.edge),
-               ImVec2(page.edge + std::max(title.x, caption.x), end), page);
+    draw_plate(list, ImVec2(page.left, page.edge),
+               ImVec2(page.left + std::max(title.x, caption.x), end), page);
   }
-  draw_text(list, *page.fonts.title, ImVec2(page.edge, page.edge), page.theme.ink(), text.title,
+  draw_text(list, *page.fonts.title, ImVec2(page.left, page.edge), page.theme.ink(), text.title,
             page.wrap);
-  draw_text(list, *page.fonts.text, ImVec2(page.edge, page.caption), page.theme.faint_ink(),
+  draw_text(list, *page.fonts.text, ImVec2(page.left, page.caption), page.theme.faint_ink(),
             text.caption, page.wrap);
 }
 
@@ -195,7 +203,7 @@ std::vector<Figure> figures_of(const Snapshot& snapshot, const View& view,
   add(OverlayPart::Temperature, {typeset_number(formatted("T = %#.3g", snapshot.temperature)),
                                  "T = 0.0000", theme.faint_ink()});
   add(OverlayPart::Collisions,
-      {grouped(snapshot.collisions) + " collisions", "", theme.faint_ink()});
+      {grouped_digits(snapshot.collisions) + " collisions", "", theme.faint_ink()});
   return figures;
 }
 
@@ -210,7 +218,7 @@ void draw_row(ImDrawList& list, const Snapshot& snapshot, const Projection& proj
     draw_scale_bar(list, ImVec2(right, bottom), length, pixels, page);
   }
 
-  float x = page.edge;
+  float x = page.left;
   for (const Figure& figure : figures_of(snapshot, view, page.theme)) {
     const float width = text_extent(*page.fonts.text, figure.text).x;
     if (x + width > right - unit) return;
@@ -233,7 +241,7 @@ void draw_column(ImDrawList& list, const Snapshot& snapshot, const Projection& p
   float y = page.size.height - page.edge - std::round(1.5f * unit * figures.size() - 0.5f * unit);
   if (!view.hides(OverlayPart::ScaleBar) && y - 3.0f * unit > page.heading) {
     const double length = scale_length(snapshot, projection);
-    draw_scale_bar(list, ImVec2(page.edge, y - 1.5f * unit), length,
+    draw_scale_bar(list, ImVec2(page.left, y - 1.5f * unit), length,
                    static_cast<float>(length * snapshot.diameter * projection.scale()), page);
   }
   if (figures.empty()) return;
@@ -241,10 +249,10 @@ void draw_column(ImDrawList& list, const Snapshot& snapshot, const Projection& p
   for (const Figure& figure : figures) {
     width = std::max(width, text_extent(*page.fonts.text, figure.text).x);
   }
-  draw_plate(list, ImVec2(page.edge, y), ImVec2(page.edge + width, page.size.height - page.edge),
+  draw_plate(list, ImVec2(page.left, y), ImVec2(page.left + width, page.size.height - page.edge),
              page);
   for (const Figure& figure : figures) {
-    draw_text(list, *page.fonts.text, ImVec2(page.edge, y), figure.ink, figure.text);
+    draw_text(list, *page.fonts.text, ImVec2(page.left, y), figure.ink, figure.text);
     y += line;
   }
 }
@@ -267,6 +275,13 @@ Faces box_area(const Snapshot& snapshot, const Projection& projection) {
     area.high = area.high.cwiseMax(eye.pixels(seen));
   }
   return area;
+}
+
+// Whether the width of the box is inside the margins, up to rounding.
+bool is_inside(const Faces& box, const Page& page) {
+  constexpr double kRounding = 1.0;  // pixel
+  return box.low.x() > page.margins.left - kRounding &&
+         box.high.x() < page.size.width - page.margins.right + kRounding;
 }
 
 // The area beside which legends are. A box of spheres may turn: it has the area inside the margins.
@@ -436,7 +451,7 @@ Margins Overlay::margins(const Snapshot& snapshot, Size size, const View& view,
                          const Legends& legends, const OverlayText& text) {
   const CurrentContext current(context_.get());
   return arrange(snapshot, fonts_for(size, text), kDarkTheme, size, view,
-                 shown_legends(legends, view), shown_text(text, view))
+                 shown_legends(legends, view), shown_text(text, view), true)
       .margins;
 }
 
@@ -447,8 +462,12 @@ void Overlay::draw(const Snapshot& snapshot, const Projection& projection, const
   const Size size = projection.size;
   const Legends legends = shown_legends(all_legends, view);
   const OverlayText shown = shown_text(text, view);
-  Page page = arrange(snapshot, fonts_for(size, text), theme, size, view, legends, shown);
   const Faces box = box_area(snapshot, projection);
+  const Fonts fonts = fonts_for(size, text);
+  Page page = arrange(snapshot, fonts, theme, size, view, legends, shown, true);
+  if (!is_inside(box, page)) {
+    page = arrange(snapshot, fonts, theme, size, view, legends, shown, false);
+  }
   const Tiling tiling = tiling_of(snapshot, projection, view);
   const Vec2 length = projection.scale() * snapshot.box.head<2>();
   const Vec2 low = box.low + length.cwiseProduct(Vec2(tiling.first[0], tiling.first[1]));

@@ -12,4 +12,11 @@ TEST_CASE("Typeset number: numbers with an exponent have a superscript, other te
   CHECK(power_text(-307) == "10⁻³⁰⁷");
 }
 
+TEST_CASE("Typeset number: groups of three digits have thin spaces between them") {
+  CHECK(grouped_digits(0) == "0");
+  CHECK(grouped_digits(999) == "999");
+  CHECK(grouped_digits(1000) == "1\u2009000");
+  CHECK(grouped_digits(12'345'678) == "12\u2009345\u2009678");
+}
+
 }  // namespace clatter

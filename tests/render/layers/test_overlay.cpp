@@ -53,8 +53,11 @@ TEST_CASE("Overlay: a heading above the box is as wide as the picture, one besid
   const auto context = open_context(Backend::Osmesa);
   Renderer renderer(context->gl());
   const Size size{1280, 720};
-  // Right end of the heading, which is alone in the upper half beside the box.
-  const auto end_of_heading = [&](Vec2 box) {
+  struct Heading {
+    int begin, end;          // alone in the upper half beside the box
+    double box_begin, room;  // left edge of the box, and from its right edge to the picture's
+  };
+  const auto heading_of = [&](Vec2 box) {
     Snapshot snapshot = driven_box();
     snapshot.box = box;
     View view;
@@ -63,18 +66,29 @@ TEST_CASE("Overlay: a heading above the box is as wide as the picture, one besid
     const Image with = draw(renderer, context->gl(), snapshot, camera, size, view);
     view.overlay = false;
     const Image without = draw(renderer, context->gl(), snapshot, camera, size, view);
-    int end = 0;
+    int begin = size.width, end = 0;
     for (int y = 0; y < size.height / 2; ++y) {
-      for (int x = end; x < size.width; ++x) {
-        if (!(pixel(with, x, y) == pixel(without, x, y))) end = x;
+      for (int x = 0; x < size.width; ++x) {
+        if (pixel(with, x, y) == pixel(without, x, y)) continue;
+        begin = std::min(begin, x);
+        end = std::max(end, x);
       }
     }
-    return end;
+    const Projection projection{camera, size};
+    return Heading{begin, end, projection.pixels(Vec2(0.0, 0.0)).x(),
+                   size.width - projection.pixels(box).x()};
   };
   constexpr int kUnit = 18;  // height of a line of text
-  CHECK(end_of_heading({60.0, 12.0}) > 20 * kUnit);
-  CHECK(end_of_heading({20.0, 25.0}) < 18 * kUnit);
-  CHECK(end_of_heading({20.0, 25.0}) > 12 * kUnit);
+  const Heading above = heading_of({60.0, 12.0});
+  CHECK(above.begin < 2 * kUnit);
+  CHECK(above.end > 20 * kUnit);
+  // A column and its box are in the middle together.
+  const Heading beside = heading_of({20.0, 25.0});
+  CHECK(beside.end - beside.begin < 16 * kUnit);
+  CHECK(beside.end - beside.begin > 11 * kUnit);
+  CHECK(beside.end < beside.box_begin - kUnit);
+  CHECK(beside.begin > 5 * kUnit);
+  CHECK(beside.begin == doctest::Approx(beside.room - wall_thickness(size)).epsilon(0.06));
 }
 
 TEST_CASE(
