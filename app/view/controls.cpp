@@ -132,9 +132,33 @@ bool Controls::group(const char* name) {
   if (chosen_) return true;
   if (ImGui::GetCursorPosY() > ImGui::GetCursorStartPos().y) ImGui::Spacing();
   ImGui::PushStyleColor(ImGuiCol_Header, ImVec4(0, 0, 0, 0));
+  const bool revealed = revealed_ == name;
+  if (revealed) ImGui::SetNextItemOpen(true);
   const bool open = ImGui::CollapsingHeader(name, ImGuiTreeNodeFlags_DefaultOpen);
   ImGui::PopStyleColor();
+  if (!revealed) return open;
+  ImGui::SetScrollHereY(0.0f);
+  revealed_.clear();
   return open;
+}
+
+void Controls::group_row(std::initializer_list<const char*> names) {
+  std::vector<std::string> words;
+  float free = ImGui::GetContentRegionAvail().x + ImGui::GetStyle().ItemSpacing.x;
+  const auto width = [](const std::string& word) { return ImGui::CalcTextSize(word.c_str()).x; };
+  for (const std::string name : names) {
+    words.push_back(name.substr(0, name.find(' ')));
+    free -= width(words.back()) + ImGui::GetStyle().ItemSpacing.x;
+  }
+  const float padding = std::floor(free / static_cast<float>(words.size()));
+  auto word = words.begin();
+  for (const std::string name : names) {
+    const std::string key = "group." + name, help = "Scrolls to " + name;
+    if (button(key.c_str(), word->c_str(), help.c_str(), width(*word) + padding)) revealed_ = name;
+    ImGui::SameLine();
+    ++word;
+  }
+  ImGui::NewLine();
 }
 
 // The value in the range of the slider. A message states the limit.

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <utility>
@@ -59,6 +60,8 @@ class Controls {
 
   /// Collapsible heading of a group in a panel. Returns true if the group is open.
   bool group(const char* name);
+  /// Row of buttons that open groups of a panel and scroll to them.
+  void group_row(std::initializer_list<const char*> names);
   /// Slider for a law. `value` is the current value, `usual` the value of the opened scene.
   void law(const Slider& slider, double value, double usual);
   /// Slider for an integer. The value is set when the slider is released, and restarts the gas.
@@ -124,6 +127,7 @@ class Controls {
   ScriptLog& log_;
   std::optional<std::vector<std::string>> chosen_;  // absent: all controls are drawn
   std::vector<std::string> sliders_;                // names since the last take_sliders()
+  std::string revealed_;              // group that the next group() opens and scrolls to
   std::vector<std::string> offered_;  // names asked of shows() since the last take_missing()
   double before_ = 0.0;               // value at the start of the current drag
   std::optional<double> typed_;       // number in the open text field, if it was edited

@@ -194,9 +194,12 @@ void Gui::left_panel(float top, float width) {
   ImGui::SetNextWindowPos(ImVec2(0, top));
   ImGui::SetNextWindowSize(ImVec2(width, ImGui::GetIO().DisplaySize.y - top));
   ImGui::Begin("left", nullptr, kFixedPanel);
+  controls_.group_row({"Gas", "Box and walls", "View", "Record"});
+  ImGui::BeginChild("groups");
   all_controls();
   record();
   if (controls_.group("Window")) window_controls();
+  ImGui::EndChild();
   ImGui::End();
 }
 
@@ -339,13 +342,7 @@ void Gui::viewport() {
   const bool quiet = message_.shown() || panels_.help || panels_.lecture || panels_.narrow ||
                      controls_.chooses() || !session_.view().captions.empty();
   const char* hint = mouse_tools_.hint();
-  if (!quiet && hint) {
-    hint_line(hint, area_);
-  } else if (!quiet && panels_.hint) {
-    hint_line(std::string(frame.snapshot.box.size() == 2 ? "drag a slider" : "drag to turn") +
-                  "  ·  scroll to zoom  ·  G for the gallery",
-              area_);
-  }
+  if (!quiet && hint) hint_line(hint, area_);
   log_.widget("viewport", area_.low.x, area_.low.y, area_.high.x - area_.low.x,
               area_.high.y - area_.low.y);
 }

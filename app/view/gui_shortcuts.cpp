@@ -154,9 +154,8 @@ void Gui::use_control_key(const KeyPress& press) {
 // Signs are read as characters, because their keys differ between keyboard layouts.
 void Gui::use_signs() {
   for (const ImWchar sign : ImGui::GetIO().InputQueueCharacters) {
-    const double speed = session_.frame().speed;
-    if (sign == '+' || sign == '=') session_.set_speed(speed * std::sqrt(2.0));
-    if (sign == '-') session_.set_speed(speed / std::sqrt(2.0));
+    if (sign == '+' || sign == '=') session_.change_speed(true);
+    if (sign == '-') session_.change_speed(false);
     if (sign == '[') step_scene(-1);
     if (sign == ']') step_scene(1);
     const auto tool = static_cast<std::size_t>(sign) - '1';

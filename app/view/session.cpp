@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -346,6 +348,15 @@ void Session::set_speed(double speed) {
   speed_ = std::clamp(speed, 1e-4, 1e6);
   log_.event("speed", {{"speed", speed_}});
   send(command::SetSpeed{speed_});
+}
+
+void Session::change_speed(bool faster) {
+  constexpr double kNext = 1.001;  // larger than rounding
+  const double speed = frame().speed * (faster ? kNext : 1.0 / kNext);
+  const double decade = std::pow(10.0, std::floor(std::log10(speed)));
+  constexpr std::array kSteps = {1.0, 2.0, 5.0, 10.0};
+  const auto above = std::ranges::upper_bound(kSteps, speed / decade);
+  set_speed(decade * (faster ? *above : *std::prev(above)));
 }
 
 void Session::set(const std::vector<Override>& settings, const VecX& shift) {

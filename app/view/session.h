@@ -113,6 +113,8 @@ class Session {
   void exchange_futures();
   /// Sets the speed, simulation time per second. It is clamped to 1e-4..1e6.
   void set_speed(double speed);
+  /// Sets the speed to the next larger, or smaller, of the numbers 1, 2 and 5 times a power of ten.
+  void change_speed(bool faster);
 
   /// Sets keys. Laws change in the running simulation. Other keys restart it from the current
   /// particles, moved by `shift`, without those that no longer fit. An invalid setting becomes a

@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <string>
 
 #include "app/view/icons.h"
 #include "app/view/style.h"
 #include "render/layers/fonts.h"
 #include "render/theme.h"
+#include "render/typeset_number.h"
 
 namespace clatter {
 
@@ -24,21 +27,20 @@ bool sign_button(Controls& controls, const char* key, const char* sign, const ch
 }
 
 void speed_field(Session& session, Controls& controls) {
-  const double speed = session.frame().speed;
-  if (sign_button(controls, "slower", "−", "Slower ( - )")) {
-    session.set_speed(speed / std::sqrt(2.0));
-  }
+  constexpr float kWide = 75.0f;  // width of a window with room for the whole unit, text sizes
+  const float unit = ImGui::GetFontSize();
+  const bool wide = ImGui::GetContentRegionMax().x > kWide * unit;
+  if (sign_button(controls, "slower", "−", "Slower ( - )")) session.change_speed(false);
   if (controls.shows("speed")) {
-    const std::string text = fmt::format("{:.3g} /s", speed);
+    const std::string text =
+        fmt::format("{:.3g} {}/s", session.frame().speed, wide ? "time units" : "");
     ImGui::AlignTextToFramePadding();
     const float left = ImGui::GetCursorPosX();
     ImGui::TextUnformatted(text.c_str());
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Simulation time per second");
-    ImGui::SameLine(left + 4.2f * ImGui::GetFontSize());
+    ImGui::SameLine(left + (wide ? 8.8f : 4.2f) * unit);
   }
-  if (sign_button(controls, "faster", "+", "Faster ( + )")) {
-    session.set_speed(speed * std::sqrt(2.0));
-  }
+  if (sign_button(controls, "faster", "+", "Faster ( + )")) session.change_speed(true);
 }
 
 struct Health {
@@ -64,8 +66,16 @@ Health health_of(const Frame& frame) {
   return health;
 }
 
-// Speed, collision rate, time and health at the right end of the bar, as far as there is room.
-void figures(const Frame& frame, Controls& controls) {
+// A rate with three digits, and a thin space between groups of them.
+std::string rate_text(double rate) {
+  if (rate < 100.0) return fmt::format("{:.3g}", rate);
+  const double unit = std::pow(10.0, std::floor(std::log10(rate)) - 2.0);
+  return grouped_digits(static_cast<std::uint64_t>(unit * std::round(rate / unit)));
+}
+
+// Speed, collision rate, time and health at the right end of the bar, and a hint before them, as
+// far as there is room.
+void figures(const Frame& frame, Controls& controls, const std::string& hint) {
   const float unit = ImGui::GetFontSize();
   const float right = ImGui::GetContentRegionMax().x - 1.4f * unit;
   const float room = right - ImGui::GetCursorPosX();
@@ -75,8 +85,15 @@ void figures(const Frame& frame, Controls& controls) {
     if (width(figure + text) < room) text = figure + text;
   };
   put_before(fmt::format("t = {:.2f}", frame.snapshot.time));
-  if (frame.plays) put_before(fmt::format("{:.3g} collisions/s   ", frame.events_per_second));
+  if (frame.plays) put_before(rate_text(frame.events_per_second) + " collisions/s   ");
   if (frame.plays && frame.held < 0.95) put_before(fmt::format("{:.2g}x   ", frame.held));
+  const float free = room - width(text) - width(hint);
+  if (!hint.empty() && free > 4.0f * unit) {
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 0.5f * free);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("%s", hint.c_str());
+    ImGui::SameLine();
+  }
   ImGui::SetCursorPosX(right - width(text));
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", text.c_str());
@@ -144,7 +161,7 @@ BarButton top_bar(Session& session, Controls& controls, PanelVisibility& shown, 
     gallery_button(session, controls, shown, ImGui::GetContentRegionMax().x - 3.0f * icon);
     play_button(session, controls);
     reset_button(session, controls);
-    figures(session.frame(), controls);
+    figures(session.frame(), controls, "");
     return BarButton::None;
   }
   BarButton pressed = BarButton::None;
@@ -172,7 +189,10 @@ BarButton top_bar(Session& session, Controls& controls, PanelVisibility& shown, 
   ImGui::SameLine();
   if (controls.button("help", "?", "Keys and mouse (F1)")) shown.toggle_help();
   ImGui::SameLine();
-  figures(session.frame(), controls);
+  const bool disks = session.frame().snapshot.box.size() == 2;
+  const std::string hint = std::string(disks ? "drag a slider" : "drag to turn") +
+                           "  ·  scroll to zoom  ·  G for the gallery";
+  figures(session.frame(), controls, shown.hint ? hint : "");
   return pressed;
 }
 
