@@ -68,12 +68,13 @@ inline constexpr std::array<Named<LecturePlot>, 5> kLecturePlots = {
      {"velocities", LecturePlot::Velocities},
      {"profile", LecturePlot::Profile}}};
 
-inline constexpr std::array<Named<OverlayPart>, 8> kOverlayParts = {
+inline constexpr std::array<Named<OverlayPart>, 9> kOverlayParts = {
     {{"title", OverlayPart::Title},
      {"caption", OverlayPart::Caption},
      {"time", OverlayPart::Time},
      {"temperature", OverlayPart::Temperature},
      {"collisions", OverlayPart::Collisions},
+     {"walls", OverlayPart::Walls},
      {"colour_bars", OverlayPart::ColourBars},
      {"scale_bar", OverlayPart::ScaleBar},
      {"captions", OverlayPart::Captions}}};

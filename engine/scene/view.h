@@ -137,6 +137,7 @@ enum class OverlayPart {
   Time,
   Temperature,
   Collisions,
+  Walls,  ///< kind of each wall
   ColourBars,
   ScaleBar,
   Captions  ///< timed texts, View::captions

@@ -5,8 +5,11 @@
 #include <cmath>
 #include <cstdio>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "engine/scene/enum_names.h"
 #include "render/eye.h"
 #include "render/layers/grid_layer.h"
 #include "render/layers/marked_line.h"
@@ -63,7 +66,8 @@ Legends shown_legends(Legends legends, const View& view) {
 // Whether there are figures or a scale bar below the box.
 bool has_row(const View& view) {
   return !view.hides(OverlayPart::Time) || !view.hides(OverlayPart::Temperature) ||
-         !view.hides(OverlayPart::Collisions) || !view.hides(OverlayPart::ScaleBar);
+         !view.hides(OverlayPart::Collisions) || !view.hides(OverlayPart::Walls) ||
+         !view.hides(OverlayPart::ScaleBar);
 }
 
 Page arrange(Arrangement arrangement, const Fonts& fonts, const ThemeColours& theme, Size size,
@@ -207,6 +211,30 @@ std::vector<Figure> figures_of(const Snapshot& snapshot, const View& view,
   return figures;
 }
 
+// The sides of the box with each kind of wall: "left, right: driven".
+std::vector<std::string> wall_lines(const Snapshot& snapshot, const View& view) {
+  std::vector<std::pair<std::string, std::string>> kinds;  // with their sides
+  if (view.hides(OverlayPart::Walls)) return {};
+  for (std::size_t side = 0; side < snapshot.walls.size(); ++side) {
+    const auto& wall = snapshot.walls[side];
+    if (!wall) continue;
+    std::string kind(name_of(wall->kind, kWallKinds));
+    if (wall->kind == WallKind::Thermal) {
+      kind += ", " + typeset_number(formatted("T = %.3g", wall->temperature));
+    }
+    const std::string name(kSideNames[side]);
+    const auto known = std::ranges::find(kinds, kind, &decltype(kinds)::value_type::first);
+    if (known == kinds.end()) {
+      kinds.emplace_back(kind, name);
+    } else {
+      known->second += ", " + name;
+    }
+  }
+  std::vector<std::string> lines;
+  for (const auto& [kind, sides] : kinds) lines.push_back(sides + ": " + kind);
+  return lines;
+}
+
 // Figures in a row from the lower left corner, as far as they fit, and the scale bar at its end.
 void draw_row(ImDrawList& list, const Snapshot& snapshot, const Projection& projection,
               const View& view, const Page& page) {
@@ -218,8 +246,12 @@ void draw_row(ImDrawList& list, const Snapshot& snapshot, const Projection& proj
     draw_scale_bar(list, ImVec2(right, bottom), length, pixels, page);
   }
 
+  std::vector<Figure> figures = figures_of(snapshot, view, page.theme);
+  for (const std::string& line : wall_lines(snapshot, view)) {
+    figures.push_back({line, "", page.theme.faint_ink()});
+  }
   float x = page.left;
-  for (const Figure& figure : figures_of(snapshot, view, page.theme)) {
+  for (const Figure& figure : figures) {
     const float width = text_extent(*page.fonts.text, figure.text).x;
     if (x + width > right - unit) return;
     draw_plate(list, ImVec2(x, bottom - unit), ImVec2(x + width, bottom), page);
@@ -229,8 +261,8 @@ void draw_row(ImDrawList& list, const Snapshot& snapshot, const Projection& proj
   }
 }
 
-// Figures in a column in the lower left corner, and the scale bar above them, as far as they fit
-// below the heading.
+// Figures in a column in the lower left corner, and above them the scale bar and the kinds of
+// walls, as far as they fit below the heading.
 void draw_column(ImDrawList& list, const Snapshot& snapshot, const Projection& projection,
                  const View& view, const Page& page) {
   const float unit = page.fonts.unit(), line = std::round(1.5f * unit);
@@ -239,10 +271,22 @@ void draw_column(ImDrawList& list, const Snapshot& snapshot, const Projection& p
   const auto fitting = static_cast<std::size_t>(std::max(0.0f, (room + 0.5f * unit) / line));
   const std::span<const Figure> figures(all.data(), std::min(fitting, all.size()));
   float y = page.size.height - page.edge - std::round(1.5f * unit * figures.size() - 0.5f * unit);
-  if (!view.hides(OverlayPart::ScaleBar) && y - 3.0f * unit > page.heading) {
+  float end = y - 1.5f * unit;  // of the room above the figures
+  if (!view.hides(OverlayPart::ScaleBar) && end - 1.5f * unit > page.heading) {
     const double length = scale_length(snapshot, projection);
-    draw_scale_bar(list, ImVec2(page.left, y - 1.5f * unit), length,
+    draw_scale_bar(list, ImVec2(page.left, end), length,
                    static_cast<float>(length * snapshot.diameter * projection.scale()), page);
+    end -= 3.0f * unit;
+  }
+  const std::vector<std::string> walls = wall_lines(snapshot, view);
+  float top = end - static_cast<float>(walls.size()) * line + 0.5f * unit;
+  if (top - unit > page.heading) {
+    for (const std::string& text : walls) {
+      const float width = text_extent(*page.fonts.text, text).x;
+      draw_plate(list, ImVec2(page.left, top), ImVec2(page.left + width, top + unit), page);
+      draw_text(list, *page.fonts.text, ImVec2(page.left, top), page.theme.faint_ink(), text);
+      top += line;
+    }
   }
   if (figures.empty()) return;
   float width = 0.0f;

@@ -391,10 +391,10 @@ TEST_CASE("Overlay: a view may hide each part, and the others stay at their plac
   Snapshot snapshot = driven_box();
   View view = view_with_field();
   view.captions = {{"Over the gas", {}, {}}};
-  const std::vector<OverlayPart> all = {OverlayPart::Title,      OverlayPart::Caption,
-                                        OverlayPart::Time,       OverlayPart::Temperature,
-                                        OverlayPart::Collisions, OverlayPart::ColourBars,
-                                        OverlayPart::ScaleBar,   OverlayPart::Captions};
+  const std::vector<OverlayPart> all = {
+      OverlayPart::Title,       OverlayPart::Caption,    OverlayPart::Time,
+      OverlayPart::Temperature, OverlayPart::Collisions, OverlayPart::ColourBars,
+      OverlayPart::ScaleBar,    OverlayPart::Captions,   OverlayPart::Walls};
   const Camera camera = renderer.fit(snapshot, kSize, view, kText);
   const auto drawn = [&](const View& shown) {
     return draw(renderer, context->gl(), snapshot, camera, kSize, shown);
@@ -441,6 +441,10 @@ TEST_CASE("Overlay: a view may hide each part, and the others stay at their plac
   CHECK(scale.right < 0.4);
   CHECK(scale.top > 0.7);
 
+  const Area walls = changed(only(OverlayPart::Walls));
+  CHECK(walls.right < 0.4);
+  CHECK(walls.top > 0.7);
+
   // Each figure follows its own value.
   Snapshot later = snapshot;
   const auto follows = [&](OverlayPart part) {
@@ -463,6 +467,11 @@ TEST_CASE("Overlay: a view may hide each part, and the others stay at their plac
   later = snapshot;
   later.time = 99.0;
   CHECK(followers() == std::array{true, false, false});
+
+  // Another kind of wall needs one more line.
+  snapshot.walls[kLeft]->kind = WallKind::Static;
+  CHECK(changed(only(OverlayPart::Walls)).top < walls.top);
+  snapshot = later;
 
   View none = view;
   none.overlay_hides = all;
