@@ -84,11 +84,9 @@ EngineRate measure_engine(const Scene& scene, std::uint64_t equilibration = 10) 
   });
 }
 
-// A cell of a table: the number of particles, and the fraction that they fill.
-using Cell = std::pair<int, double>;
-
 // Prints the rows of a table and returns them as JSON.
-Json print_rates(const std::vector<Cell>& cells, int dimension, std::vector<EngineRate>& rates) {
+Json print_rates(const std::vector<EngineCell>& cells, int dimension,
+                 std::vector<EngineRate>& rates) {
   const bool disks = dimension == 2;
   std::fprintf(stderr, "elastic %s, periodic box; Mcoll/s: 10^6 pair collisions per CPU second\n",
                disks ? "disks" : "spheres");
@@ -167,10 +165,10 @@ std::vector<Inhomogeneous> inhomogeneous_gases(int count) {
           {"collapsed under gravity", std::move(falling), 200}};
 }
 
-int bench_engine(const std::string& json, const EngineTable& table) {
+std::vector<EngineCell> engine_cells(const EngineTable& table) {
   const int dimension = table.volume_fraction ? 3 : table.dimension;
   const double fraction = table.volume_fraction.value_or(table.area_fraction);
-  std::vector<Cell> cells;
+  std::vector<EngineCell> cells;
   if (table.count > 0) {
     if (!has_room(table.count, fraction, dimension)) {
       throw UserError({table.volume_fraction ? "--volume-fraction" : "--area-fraction", 0, 0},
@@ -187,15 +185,20 @@ int bench_engine(const std::string& json, const EngineTable& table) {
       for (const int disks : {1'000, 10'000, 100'000, 1'000'000}) cells.emplace_back(disks, phi);
     }
   }
+  return cells;
+}
+
+int bench_engine(const std::string& json, const EngineTable& table) {
   std::vector<EngineRate> rates;
-  const Json rows = print_rates(cells, dimension, rates);
+  const Json rows =
+      print_rates(engine_cells(table), table.volume_fraction ? 3 : table.dimension, rates);
   if (!json.empty()) write_file(json, rows.dump(1) + "\n");
   return kOk;
 }
 
 int bench_growth(const std::string& json, const std::string& plot, int count) {
   constexpr double kMiddle = 0.5;  // area fraction with the largest numbers
-  std::vector<Cell> cells;
+  std::vector<EngineCell> cells;
   for (const double phi : {0.01, 0.1, 0.3, kMiddle, 0.7, 0.88}) {
     for (const int disks : {100, 1'000, 10'000, 100'000, 1'000'000, 4'000'000}) {
       const int most = phi == kMiddle ? 4'000'000 : 100'000;

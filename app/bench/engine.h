@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/scene/scene.h"
@@ -23,6 +24,12 @@ struct EngineTable {
   double area_fraction = 0.5;             ///< of disks, in the only cell
   std::optional<double> volume_fraction;  ///< of spheres, in the only cell; absent: disks
 };
+
+/// A row of the engine's table: the number of particles, and the fraction that they fill.
+using EngineCell = std::pair<int, double>;
+
+/// The rows of the engine's table, in order.
+std::vector<EngineCell> engine_cells(const EngineTable& table);
 
 /// Prints the collision rate of elastic particles in a periodic box, by number and by the fraction
 /// that they fill. Writes the table also to `json`, unless it is empty. Returns the exit code.

@@ -3,11 +3,13 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <vector>
 
 #include "app/runs/run.h"
 #include "app/system/exit_code.h"
@@ -32,27 +34,21 @@ namespace {
 constexpr int kFrames = 10;
 constexpr double kFps = 30.0;
 
-// The stages of a frame. Particles, heatmap and overlay are parts of the drawing, repeated
-// separately.
-enum Task {
-  kSimulate,
-  kSnapshot,
-  kDraw,
-  kParticles,
-  kHeatmap,
-  kOverlay,
-  kRead,
-  kPng,
-  kX264,
-  kVeryfast,
-  kTasks
-};
-constexpr std::array<const char*, kTasks> names_of(int dimension) {
-  return {"simulate", "snapshot", "draw", dimension == 2 ? "disks" : "spheres",
-          "heatmap",  "overlay",  "read", "png",
-          "x264",     "veryfast"};
+// CPU milliseconds per frame, by the name of the stage.
+using Times = std::map<std::string_view, double>;
+
+constexpr const char* particles_of(int dimension) {
+  return dimension == 2 ? "disks" : "spheres";
 }
-using Times = std::array<double, kTasks>;  // CPU milliseconds per frame
+
+// The stages of a frame in the order of their columns. Particles, heatmap and overlay are parts of
+// the drawing, repeated separately.
+std::vector<const char*> stages_of(int dimension, bool with_films) {
+  std::vector<const char*> stages = {"simulate", "snapshot", "draw", particles_of(dimension),
+                                     "heatmap",  "overlay",  "read", "png"};
+  if (with_films) stages.insert(stages.end(), {"x264", "veryfast"});
+  return stages;
+}
 
 // The share of the box that the particles fill.
 constexpr double fraction_of(int dimension) {
@@ -69,14 +65,14 @@ double children_milliseconds() {
   return milliseconds(usage.ru_utime) + milliseconds(usage.ru_stime);
 }
 
-// Adds the CPU time of a task to `times`, up to the end of its drawing. Counts all threads, because
-// OpenGL may draw on several.
+// Adds the CPU time of a stage to `times`, up to the end of its drawing. Counts all threads,
+// because OpenGL may draw on several.
 template <class Work>
-void spend(Times& times, Task task, const Gl& gl, Work work) {
+void spend(Times& times, const char* stage, const Gl& gl, Work work) {
   const double began = cpu_seconds();
   work();
   gl.Finish();
-  times[task] += 1e3 * (cpu_seconds() - began) / kFrames;
+  times[stage] += 1e3 * (cpu_seconds() - began) / kFrames;
 }
 
 // Elastic particles in a periodic box, coloured over a heatmap: disks in the shape of a film, or
@@ -98,6 +94,14 @@ Scene scene_of(int count, int dimension) {
 std::filesystem::path temporary_file(const char* extension) {
   return std::filesystem::temp_directory_path() /
          ("clatter-bench-" + std::to_string(getpid()) + extension);
+}
+
+bool has_ffmpeg() {
+  try {
+    return ChildProcess({"ffmpeg", "-version"}).wait();
+  } catch (const RunError&) {
+    return false;
+  }
 }
 
 // The CPU milliseconds of an ffmpeg process.
@@ -176,15 +180,17 @@ class Filming {
         overlay_(gl) {}
 
   // Excludes the first frame, which fills the caches.
-  Times measure() {
+  Times measure(bool with_films) {
     frame(simulation_.time());
     times_ = {};
     std::vector<Image> images;
     const double start = simulation_.time();
     for (int k = 1; k <= kFrames; ++k) images.push_back(frame(start + k / kFps));
-    for (const Image& image : images) spend(times_, kPng, gl_, [&] { encode_png(image); });
-    times_[kVeryfast] = encode_veryfast(images);
-    times_[kX264] = encode(std::move(images)) / kFrames;
+    for (const Image& image : images) spend(times_, "png", gl_, [&] { encode_png(image); });
+    if (with_films) {
+      times_["veryfast"] = encode_veryfast(images);
+      times_["x264"] = encode(std::move(images)) / kFrames;
+    }
     return times_;
   }
 
@@ -194,16 +200,16 @@ class Filming {
     canvas_.bind();
     Snapshot snapshot;
     Image image;
-    spend(times_, kSimulate, gl_, [&] { simulation_.run_until(time); });
-    spend(times_, kSnapshot, gl_, [&] {
+    spend(times_, "simulate", gl_, [&] { simulation_.run_until(time); });
+    spend(times_, "snapshot", gl_, [&] {
       snapshot = snapshot_of(simulation_);
       field_.publish(snapshot);
     });
     const Projection projection{renderer_.fit(snapshot, size, view_, {}), size};
     draw_parts(snapshot, projection);
-    spend(times_, kDraw, gl_,
+    spend(times_, "draw", gl_,
           [&] { renderer_.draw(snapshot, projection.camera, size, view_, {}); });
-    spend(times_, kRead, gl_, [&] { image = canvas_.read(); });
+    spend(times_, "read", gl_, [&] { image = canvas_.read(); });
     return image;
   }
 
@@ -215,20 +221,20 @@ class Filming {
                           {}};
     const DiskColours colours{view_.colour_by, scale, theme.disk};
     if constexpr (D == 2) {
-      spend(times_, kHeatmap, gl_, [&] {
+      spend(times_, "heatmap", gl_, [&] {
         layers_.heatmap.draw(snapshot, projection, scale, view_.field_style, theme.static_wall);
       });
-      spend(times_, kParticles, gl_,
+      spend(times_, particles_of(D), gl_,
             [&] { layers_.particles.draw(snapshot, projection, colours); });
     } else {
       const Eye eye(projection);
       gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
       gl_.Enable(GL_DEPTH_TEST);
-      spend(times_, kHeatmap, gl_, [&] {
+      spend(times_, "heatmap", gl_, [&] {
         layers_.heatmap.draw(snapshot, slices_of(snapshot, view_), projection, eye, scale,
                              view_.field_style, theme.static_wall);
       });
-      spend(times_, kParticles, gl_, [&] {
+      spend(times_, particles_of(D), gl_, [&] {
         if (SphereLight::draws(eye, snapshot)) {
           layers_.light.draw(snapshot, projection, eye, colours, view_.slab, {});
         }
@@ -236,7 +242,7 @@ class Filming {
       });
       gl_.Disable(GL_DEPTH_TEST);
     }
-    spend(times_, kOverlay, gl_, [&] {
+    spend(times_, "overlay", gl_, [&] {
       overlay_.draw(snapshot, projection, view_, legends, {"Bench", ""});
     });
   }
@@ -254,17 +260,17 @@ class Filming {
 
 // A row of the table for each size of the picture.
 template <int D>
-void add_rows(nlohmann::ordered_json& rows, const Gl& gl, int count) {
+void add_rows(nlohmann::ordered_json& rows, const Gl& gl, int count, bool with_films) {
   const Scene scene = scene_of(count, D);
   const auto simulation = simulation_of<D>(scene, 1);
   LiveField<D> field(*simulation, scene.view);
   for (const Size size : {Size{1280, 720}, {1920, 1080}}) {
-    const Times times = Filming<D>(gl, *simulation, field, scene.view, size).measure();
+    const Times times = Filming<D>(gl, *simulation, field, scene.view, size).measure(with_films);
     std::printf("%8d %10s", count, size_text(size).c_str());
     nlohmann::ordered_json row = {{"count", count}, {"width", size.width}, {"height", size.height}};
-    for (int task = 0; task < kTasks; ++task) {
-      std::printf(" %8.2f", times[task]);
-      row[std::string(names_of(D)[task]) + "_milliseconds"] = times[task];
+    for (const char* stage : stages_of(D, with_films)) {
+      std::printf(" %8.2f", times.at(stage));
+      row[std::string(stage) + "_milliseconds"] = times.at(stage);
     }
     std::printf("\n");
     std::fflush(stdout);
@@ -278,21 +284,25 @@ int bench_render(const std::string& json, int count, int dimension) {
   const std::vector<int> counts =
       count > 0 ? std::vector{count} : std::vector{1'000, 10'000, 100'000, 1'000'000};
   const auto context = open_context(Backend::Auto);
-  const char* particles = names_of(dimension)[kParticles];
+  const char* particles = particles_of(dimension);
+  const bool with_films = has_ffmpeg();
   std::fprintf(
       stderr,
       "elastic %s at phi = %g over a heatmap, %g frames per time unit, %s\n"
       "CPU milliseconds per frame, all threads; draw: the whole picture, with its parts %s, "
-      "heatmap and overlay;\nx264: the encoder of films; veryfast: x264 with this preset and "
-      "pictures in yuv420p\n",
-      particles, fraction_of(dimension), kFps, context->description().c_str(), particles);
+      "heatmap and overlay;\n%s\n",
+      particles, fraction_of(dimension), kFps, context->description().c_str(), particles,
+      with_films ? "x264: the encoder of films; veryfast: x264 with this preset and pictures in "
+                   "yuv420p"
+                 : "without the columns of the encoder, which need ffmpeg (apt install ffmpeg)");
   std::printf("%8s %10s", "N", "size");
-  for (const char* name : names_of(dimension)) std::printf(" %8s", name);
+  for (const char* stage : stages_of(dimension, with_films)) std::printf(" %8s", stage);
   std::printf("\n");
   auto rows = nlohmann::ordered_json::array();
   for (const int number : counts) {
-    with_dimension(dimension,
-                   [&](auto dimension) { add_rows<dimension>(rows, context->gl(), number); });
+    with_dimension(dimension, [&](auto dimension) {
+      add_rows<dimension>(rows, context->gl(), number, with_films);
+    });
   }
   if (!json.empty()) write_file(json, rows.dump(1) + "\n");
   return kOk;

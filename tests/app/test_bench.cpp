@@ -376,6 +376,20 @@ TEST_CASE("Bench: the table of render has the cost of each stage, for pictures o
   }
 }
 
+TEST_CASE("Bench: without ffmpeg the table of render leaves out the encoder and says so") {
+  const Shell shell;
+  const Outcome outcome =
+      shell.run("c=$(command -v clatter); PATH=/none $c bench render --count 10 --json table.json");
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(says(outcome.err, "without the columns of the encoder, which need ffmpeg"));
+  CHECK(std::regex_search(outcome.out, std::regex("read +png\n")));
+  const json rows = json::parse(shell.read("table.json"));
+  REQUIRE(rows.size() == 2);
+  CHECK(rows[0].contains("png_milliseconds"));
+  CHECK_FALSE(rows[0].contains("x264_milliseconds"));
+}
+
 TEST_CASE("Bench: the table of the timeline has the time of jumps and the memory of the record") {
   const Shell shell;
   const Outcome outcome = shell.run("clatter bench timeline --count 20 --json t.json");
@@ -412,6 +426,41 @@ TEST_CASE("Bench: the engine's table is the default, and one cell of it ends in 
                    {"setup_seconds", " %.3f"},
                    {"bytes_per_disk", " %.0f"}});
   }
+}
+
+TEST_CASE("Bench: the rows of the engine's table, by fraction and then by number") {
+  using Cells = std::vector<EngineCell>;
+  CHECK(engine_cells({}) == Cells{{1000, 0.1},
+                                  {10000, 0.1},
+                                  {100000, 0.1},
+                                  {1000000, 0.1},
+                                  {1000, 0.3},
+                                  {10000, 0.3},
+                                  {100000, 0.3},
+                                  {1000000, 0.3},
+                                  {1000, 0.5},
+                                  {10000, 0.5},
+                                  {100000, 0.5},
+                                  {1000000, 0.5},
+                                  {1000, 0.7},
+                                  {10000, 0.7},
+                                  {100000, 0.7},
+                                  {1000000, 0.7}});
+  CHECK(engine_cells({.dimension = 3, .volume_fraction = {}}) == Cells{{1372, 0.1},
+                                                                       {10976, 0.1},
+                                                                       {87808, 0.1},
+                                                                       {1000000, 0.1},
+                                                                       {1372, 0.3},
+                                                                       {10976, 0.3},
+                                                                       {87808, 0.3},
+                                                                       {1000000, 0.3},
+                                                                       {1372, 0.49},
+                                                                       {10976, 0.49},
+                                                                       {87808, 0.49},
+                                                                       {1000000, 0.49}});
+  CHECK(engine_cells({.count = 50, .area_fraction = 0.2, .volume_fraction = {}}) ==
+        Cells{{50, 0.2}});
+  CHECK(engine_cells({.count = 50, .volume_fraction = 0.3}) == Cells{{50, 0.3}});
 }
 
 TEST_CASE("Bench: a cell of the engine's table for spheres, with its memory") {
