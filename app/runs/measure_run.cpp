@@ -80,12 +80,10 @@ void require_replaceable(const std::filesystem::path& file, const char* flag) {
 
 // Throws if the selection of events names no particle or region of the scene.
 void require_selectable(const EventSelection& selection, const Scene& scene) {
-  const auto count = static_cast<std::uint32_t>(scene.particles.count);
   for (const std::uint32_t particle : selection.particles) {
-    if (particle < count) continue;
+    if (particle < static_cast<std::uint32_t>(scene.particles.count)) continue;
     throw UserError({"--events-of", 0, 0}, "there is no particle " + std::to_string(particle),
-                    count == 0 ? "the scene has no particles"
-                               : "particles are numbered from 0 to " + std::to_string(count - 1));
+                    particle_numbers(scene.particles.count));
   }
   if (selection.region.empty()) return;
   const auto sides = static_cast<std::size_t>(2 * scene.dimension());

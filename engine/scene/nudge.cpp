@@ -46,9 +46,8 @@ void check_nudge(const Nudge& nudge, const Scene& scene,
                     "choose a number from 0 to " + number_text(side));
   }
   if (nudge.particle && *nudge.particle >= scene.particles.count && !is_uncounted(scene)) {
-    throw UserError(
-        place_of("particle"), "there is no particle " + std::to_string(*nudge.particle),
-        "particles are numbered from 0 to " + std::to_string(scene.particles.count - 1));
+    throw UserError(place_of("particle"), "there is no particle " + std::to_string(*nudge.particle),
+                    particle_numbers(scene.particles.count));
   }
 }
 

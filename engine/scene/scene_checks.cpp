@@ -292,10 +292,9 @@ void check_scene(const Scene& scene, const toml::table& root, const std::string&
 void check_followed(const Scene& scene, const toml::table& root, const std::string& file) {
   for (const CameraKey& key : scene.view.camera) {
     if (!key.follow || *key.follow < scene.particles.count) continue;
-    throw UserError(
-        place_of(root, "view.camera", file),
-        "there is no particle " + std::to_string(*key.follow) + " to follow",
-        "particles are numbered from 0 to " + std::to_string(scene.particles.count - 1));
+    throw UserError(place_of(root, "view.camera", file),
+                    "there is no particle " + std::to_string(*key.follow) + " to follow",
+                    particle_numbers(scene.particles.count));
   }
 }
 

@@ -46,6 +46,11 @@ static std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+std::string particle_numbers(int count) {
+  if (count == 0) return "the scene has no particles";
+  return "particles are numbered from 0 to " + std::to_string(count - 1);
+}
+
 std::string_view near_miss(std::string_view word, std::span<const std::string> candidates) {
   std::string_view nearest;
   std::size_t least = word.size() / 3 + 2;  // a larger distance means another word

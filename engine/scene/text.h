@@ -15,6 +15,9 @@ std::string in_quotes(std::string_view text);
 /// A name of scenes and files for use in sentences: "heat flux x" for "heat_flux_x".
 std::string in_words(std::string_view name);
 
+/// The valid numbers of particles as an advice: "particles are numbered from 0 to 9".
+std::string particle_numbers(int count);
+
 /// The correct spelling of `word`: the most similar candidate. Empty if no candidate is similar.
 std::string_view near_miss(std::string_view word, std::span<const std::string> candidates);
 

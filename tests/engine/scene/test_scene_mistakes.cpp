@@ -54,6 +54,10 @@ TEST_CASE("Scene file: mistakes are reported with their place and a fix") {
        "s.toml:4:1: the camera's time 1 comes after 1; give each time once, in order"},
       {kParticles + "[view]\ncamera = [{ follow = 10 }]\n",
        "s.toml:4:1: there is no particle 10 to follow; particles are numbered from 0 to 9"},
+      {"particles.count = 0\nview.camera = [{ follow = 0 }]\n",
+       "s.toml:2:6: there is no particle 0 to follow; the scene has no particles"},
+      {"particles.count = 0\nchange = [{ time = 1, nudge = { particle = 3, add = [1, 0] } }]\n",
+       "s.toml:2:33: there is no particle 3; the scene has no particles"},
       {kParticles + "[view]\ncamera = [{ follow = 3000000000 }]\n",
        "s.toml:4:13: 'view.camera.follow' cannot be 3000000000; give a whole number between 0 and "
        "2147483647"},
