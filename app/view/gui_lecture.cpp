@@ -13,6 +13,7 @@
 #include "app/view/icons.h"
 #include "app/view/lesson.h"
 #include "app/view/panels.h"
+#include "app/view/plot.h"
 #include "app/view/style.h"
 #include "engine/scene/enum_names.h"
 #include "engine/scene/text.h"
