@@ -270,10 +270,8 @@ std::vector<NewVelocity<D>> EventLoop<D>::velocities_after(const Nudge& nudge) c
     if (nudge.add) velocity += Vec<D>(*nudge.add);
     if (nudge.set) velocity = Vec<D>(*nudge.set);
     if (velocity.norm() <= kMaxSpeed) continue;
-    throw PhysicalStop(
-        fmt::format("a nudge gives particle {} a speed of {:.3g}, more than {:.0e}; "
-                    "make it weaker",
-                    particle, velocity.norm(), kMaxSpeed));
+    throw PhysicalStop(fmt::format("a nudge gives particle {} a speed above {:.0e}; make it weaker",
+                                   particle, kMaxSpeed));
   }
   return velocities;
 }

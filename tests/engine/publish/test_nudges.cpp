@@ -244,6 +244,15 @@ TEST_CASE("Nudge: a velocity beyond the largest stops the run, and the state rem
   CHECK_THROWS_AS(run.run_until(2.0), PhysicalStop);
   CHECK(run.simulation().counts().nudges < 8);
   CHECK(std::isfinite(run.simulation().kinetic_energy()));
+
+  // A speed that rounds to the largest.
+  ScheduledRun<2> thrown(
+      parse_scene(kDisks + "[[change]]\ntime = 1\nnudge = { particle = 3, set = [1e15, 1e9] }\n",
+                  ""),
+      kNudgeSeed);
+  CHECK_THROWS_WITH_AS(thrown.run_until(2.0),
+                       "a nudge gives particle 3 a speed above 1e+15; make it weaker",
+                       PhysicalStop);
 }
 
 // A gas without losses between driven walls stops at a million times its fastest speed.
