@@ -164,11 +164,6 @@ std::filesystem::path Movie::piece_path(long first) const {
   return folder_ / fmt::format("{:06}{}", first, format_->extension);
 }
 
-// Number of the first picture in the piece that contains this picture.
-long Movie::start_of_piece(long number) const {
-  return std::max(options_.begin, number / kPiece * kPiece);
-}
-
 void Movie::start_piece() {
   piece_ = next_;
   const std::filesystem::path piece = piece_path(piece_);
@@ -235,11 +230,11 @@ void Movie::finish(Ending ending) {
   rmdir(folder_.c_str());
 }
 
-// The pieces of the film so far, in order.
+// The pieces of the film so far, in order. All but the first begin at a multiple of kPiece.
 std::vector<FilmPart> Movie::pieces() const {
   std::vector<FilmPart> all;
   for (long first = options_.begin, after; first < next_; first = after) {
-    after = std::min(start_of_piece(first) + kPiece, next_);
+    after = std::min((first / kPiece + 1) * kPiece, next_);
     all.push_back({piece_path(first), after - first});
   }
   return all;

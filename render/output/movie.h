@@ -50,7 +50,6 @@ class Movie final : public FrameSink {
   bool is_own(const std::string& name) const;
   void remove_own_files();
   void require_earlier_pieces();
-  long start_of_piece(long number) const;
   std::vector<FilmPart> pieces() const;
   void start_piece();
   void end_piece();

@@ -78,6 +78,14 @@ TEST_CASE(
   const std::string lossy = hashes(shell, "-i whole.mp4"), part = hashes(shell, "-i part.mp4");
   CHECK(part.size() * 150 == lossy.size() * 60);
   CHECK((says(lossy, part)));
+
+  // Parts without loss may begin anywhere.
+  REQUIRE(shell
+              .run("mkdir parts && " + kFilm + "--frames 0:37 --out parts/000000.mkv && " + kFilm +
+                   "--frames 37: --out parts/000037.mkv && " + kFilm +
+                   "--join parts --out joined.mkv")
+              .code == 0);
+  CHECK((hashes(shell, "-i joined.mkv") == whole));
 }
 
 TEST_CASE("Film parts: a resumed film keeps the flags it began with, and refuses others") {

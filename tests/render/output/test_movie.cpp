@@ -175,6 +175,35 @@ TEST_CASE("Movie: a film that was cut and resumed is the same film, to the byte"
   }
 }
 
+// Pieces end at the same numbers in every film.
+TEST_CASE("Movie: a part that begins within a piece has all its pictures, also if it was cut") {
+  const TemporaryFolder folder;
+  constexpr long kBegin = 37, kEnd = 2 * FrameSink::kPiece + 7;
+  const auto whole = folder / "whole.mkv", cut = folder / "cut.mkv";
+  SinkOptions part = options();
+  part.begin = part.next = kBegin;
+  {
+    Movie movie(whole, part);
+    for (long i = kBegin; i < kEnd; ++i) movie.add(frame(static_cast<int>(i)), {});
+    movie.finish(Ending::Whole);
+  }
+  CHECK(frames_of(whole) == kEnd - kBegin);
+  {
+    Movie movie(cut, part);
+    for (long i = kBegin; i < kEnd - 3; ++i) movie.add(frame(static_cast<int>(i)), {});
+    movie.finish(Ending::Cut);
+  }
+  CHECK(frames_of(cut) == kEnd - 3 - kBegin);
+  part.goes_on = true;
+  part.next = 2 * FrameSink::kPiece;
+  {
+    Movie movie(cut, part);
+    for (long i = part.next; i < kEnd; ++i) movie.add(frame(static_cast<int>(i)), {});
+    movie.finish(Ending::Whole);
+  }
+  CHECK(bytes_of(cut) == bytes_of(whole));
+}
+
 TEST_CASE("Movie: the pieces of a film that was cut are not overwritten unless asked") {
   const TemporaryFolder folder;
   {
