@@ -192,10 +192,17 @@ void join_films(const PartsFolder& folder, const std::vector<FilmPart>& parts, d
                              found, count));
 }
 
+void require_no_device(const std::filesystem::path& path) {
+  if (!is_special(path)) return;
+  throw UserError({path.string()}, "this is not a regular file",
+                  "give the name of a file, not of a device or a pipe");
+}
+
 void join_parts(const std::filesystem::path& folder, long count, double fps,
                 const std::filesystem::path& path) {
   const MovieFormat& format = *find_movie_format(path.extension());
   const std::filesystem::path target = target_of(path);
+  require_no_device(target);
   std::error_code ignored;
   if (std::filesystem::equivalent(folder, std::filesystem::absolute(target).parent_path(),
                                   ignored)) {

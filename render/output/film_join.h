@@ -46,10 +46,13 @@ void join_films(const PartsFolder& folder, const std::vector<FilmPart>& parts, d
                 const MovieFormat& format, const std::filesystem::path& list, const NewFile& joined,
                 const std::string& encoder = "ffmpeg");
 
+/// Throws UserError if `path` is a device or a pipe, which a film would replace.
+void require_no_device(const std::filesystem::path& path);
+
 /// Joins the films FIRST.EXTENSION in a folder to the film `path` of `count` pictures. FIRST is the
 /// number of the first picture of a part. Only reads the folder: temporary files are beside the
-/// film. Throws UserError if pictures are missing, or if parts differ in their size or frame rate.
-/// Throws RunError if the film cannot be written.
+/// film. Throws UserError if pictures are missing, or if parts differ in their size or frame rate,
+/// or if `path` is a device or a pipe. Throws RunError if the film cannot be written.
 void join_parts(const std::filesystem::path& folder, long count, double fps,
                 const std::filesystem::path& path);
 

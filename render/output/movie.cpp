@@ -65,16 +65,18 @@ std::filesystem::path pieces_folder(const std::filesystem::path& path) {
   return target_of(path).string() + ".part";
 }
 
-Movie::Movie(std::filesystem::path path, const SinkOptions& options, const std::string& encoder)
-    : path_(target_of(std::move(path))),
+Movie::Movie(const std::filesystem::path& path, const SinkOptions& options,
+             const std::string& encoder)
+    : path_(target_of(path)),
       folder_(pieces_folder(path_)),
-      format_(find_movie_format(path_.extension())),
+      format_(find_movie_format(path.extension())),
       options_(options),
       program_(encoder),
       checksums_(options.checksums),
       notes_(options.notes),
       next_(options.next),
       queue_(1, 4) {
+  require_no_device(path_);
   require_writable(path_);
   const bool begins = options.next == options.begin && !options.goes_on;
   if (begins && !options.overwrite) require_no_pieces(folder_);

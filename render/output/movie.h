@@ -21,11 +21,12 @@ std::filesystem::path pieces_folder(const std::filesystem::path& path);
 /// loses no complete piece, and a restarted film is bit for bit identical to an uninterrupted one.
 class Movie final : public FrameSink {
  public:
-  /// Opens a film; the extension of `path` determines its format. `encoder` is a name on the PATH.
-  /// Throws UserError if pieces of a restarted film are missing, or if the folder has other pieces.
+  /// Opens a film; the extension of `path` determines its format, also if `path` is a link to
+  /// another file. `encoder` is a name on the PATH. Throws UserError if `path` is a device or a
+  /// pipe, if pieces of a restarted film are missing, or if the folder has other pieces.
   /// Throws DamagedPiece if pieces have changed, and RunError if files cannot be written or the
   /// encoder cannot start.
-  Movie(std::filesystem::path path, const SinkOptions& options,
+  Movie(const std::filesystem::path& path, const SinkOptions& options,
         const std::string& encoder = "ffmpeg");
   ~Movie() override;
 

@@ -86,6 +86,8 @@ TEST_CASE(
                    "--join parts --out joined.mkv")
               .code == 0);
   CHECK((hashes(shell, "-i joined.mkv") == whole));
+  CHECK(shell.run("mkfifo pipe.mkv").code == 0);
+  check_refused(shell, kFilm + "--join parts --out pipe.mkv", {"pipe.mkv: this is not a regular"});
 }
 
 TEST_CASE("Film parts: a resumed film keeps the flags it began with, and refuses others") {

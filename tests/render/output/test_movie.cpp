@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include <cstdio>
 
@@ -202,6 +203,25 @@ TEST_CASE("Movie: a part that begins within a piece has all its pictures, also i
     movie.finish(Ending::Whole);
   }
   CHECK(bytes_of(cut) == bytes_of(whole));
+}
+
+TEST_CASE("Movie: the format follows the given name, also of a link to a name without extension") {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("store", folder / "film.mkv");
+  {
+    Movie movie(folder / "film.mkv", options());
+    write_film(movie, 3);
+  }
+  CHECK(std::filesystem::is_symlink(folder / "film.mkv"));
+  CHECK(frames_of(folder / "store") == 3);
+  CHECK(bytes_of(folder / "store").starts_with("\x1a\x45\xdf\xa3"));  // a Matroska file
+
+  std::filesystem::create_symlink("/dev/null", folder / "device.gif");
+  REQUIRE(mkfifo((folder / "pipe.mp4").c_str(), 0600) == 0);
+  for (const char* name : {"device.gif", "pipe.mp4"}) {
+    CHECK_THROWS_WITH_AS(Movie(folder / name, options()),
+                         doctest::Contains("not of a device or a pipe"), UserError);
+  }
 }
 
 TEST_CASE("Movie: the pieces of a film that was cut are not overwritten unless asked") {
