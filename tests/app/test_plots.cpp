@@ -775,7 +775,7 @@ TEST_CASE("Plots: compared gases have one curve each, or its difference from the
   CHECK(lecture->title == "Energy per time, dissipated");
 }
 
-TEST_CASE("Plots: a difference is taken between the points, with the errors of both curves") {
+TEST_CASE("Plots: compared gases have their colours, and differences between the points") {
   LivePlot first{"P", "x", false, true, {}}, second = first;
   first.curves = {{.name = "f",
                    .colour = {},
@@ -784,17 +784,26 @@ TEST_CASE("Plots: a difference is taken between the points, with the errors of b
                    .compared = true}};
   second.curves = {{.name = "f",
                     .colour = {},
-                    .points = {{1.0, 10.0}, {3.0, 10.0}},
+                    .points = {{0.5, 10.0}, {3.0, 10.0}},
                     .errors = {0.4, 0.4},
                     .compared = true}};
   const auto plot = compared_plot({first, second}, {"A", "B"}, true);
   REQUIRE(plot);
   CHECK_FALSE(plot->log_y);
   REQUIRE(plot->curves.size() == 1);
-  CHECK(plot->curves[0].points == std::vector<Vec2>{{1.0, 7.0}});
+  CHECK(plot->curves[0].points == std::vector<Vec2>{{0.5, 8.0}});
   CHECK(plot->curves[0].errors == std::vector<double>{0.5});
   second.curves[0].compared = false;
   CHECK_FALSE(compared_plot({first, second}, {"A", "B"}, false));
+
+  const auto four = compared_plot({first, first, first, first}, {"A", "B", "C", "D"}, false);
+  REQUIRE(four);
+  std::vector<Colour> colours;
+  for (const Curve& curve : four->curves) colours.push_back(curve.colour);
+  // Sky blue, orange, bluish green and reddish purple of Okabe and Ito (2008).
+  CHECK(colours ==
+        std::vector<Colour>{
+            {0x56, 0xb4, 0xe9}, {0xe6, 0x9f, 0x00}, {0x00, 0x9e, 0x73}, {0xcc, 0x79, 0xa7}});
 }
 
 }  // namespace clatter
