@@ -1,5 +1,7 @@
 #include "engine/dynamics/boundary.h"
 
+#include <algorithm>
+
 #include "engine/physics/contact.h"
 
 namespace clatter {
@@ -15,8 +17,9 @@ std::array<WallMotion, 2 * D> wall_motions(const Model<D>& model) {
 
 template <int D>
 Boundary<D>::Boundary(const Model<D>& model, const Clock& clock,
-                      const std::array<double, 2 * D>& phase_shifts)
-    : model_(model), phase_shifts_(phase_shifts) {
+                      const std::array<double, 2 * D>& phase_shifts,
+                      const std::optional<PistonStroke>& piston)
+    : model_(model), phase_shifts_(phase_shifts), piston_(piston) {
   move_base(clock);
 }
 
@@ -24,16 +27,26 @@ template <int D>
 void Boundary<D>::move_base(const Clock& clock) {
   const std::array<WallMotion, 2 * D> motions = wall_motions<D>(model_);
   for (int side = 0; side < 2 * D; ++side) {
+    innermost_[side] = clatter::innermost_travel(motions[side]);
     if (!model_.walls[side] || !model_.walls[side]->moves()) continue;
     motions_[side] = motions[side];
     motions_[side]->phase =
         clock.periods(motions[side].frequency, motions[side].phase + phase_shifts_[side]);
   }
+  if (!piston_) return;
+  stroke_ = *piston_;
+  stroke_.start = clock.relative(piston_->start);
+  stroke_.end = clock.relative(piston_->end);
+  innermost_[kRight] += piston_->innermost();
 }
 
 template <int D>
 WallState Boundary<D>::wall(int side, double time) const {
-  return motions_[side] ? wall_state(*motions_[side], time) : WallState{};
+  WallState state = motions_[side] ? wall_state(*motions_[side], time) : WallState{};
+  if (side != kRight || !piston_) return state;
+  state.displacement += stroke_.travel(time);
+  if (stroke_.moves_at(time)) state.velocity += piston_->velocity();
+  return state;
 }
 
 template <int D>
@@ -41,28 +54,37 @@ double Boundary<D>::touching_place(int side, double time) const {
   return model_.wall_plane(side / 2, side % 2) + inward(side) * wall(side, time).displacement;
 }
 
+// The piston's rest position moves until the end of its stroke, and rests from there on. A flight
+// that began before the stroke has no contact before it, because such a contact would have ended
+// the flight.
 template <int D>
 double Boundary<D>::contact_time(int side, const Flight<D>& flight, double now) const {
+  const bool piston = side == kRight && piston_;
   const int axis = side / 2;
   const double plane = model_.wall_plane(axis, side % 2);
-  if (!motions_[side]) {
+  if (!motions_[side] && !piston) {
     return plane_contact_time<D>(flight, axis, plane, inward(side), model_.gravity);
   }
-  const auto contact_from = [&](double time) {
-    const double place = flight.at(time, model_.gravity)[axis];
-    const double speed = flight.velocity_at(time, model_.gravity)[axis];
-    return moving_wall_contact(*motions_[side], time, inward(side) * (place - plane),
-                               inward(side) * speed, inward(side) * model_.gravity[axis]);
+  const auto contact_from = [&](double time, double rest_velocity) {
+    const double rest = plane + inward(side) * (piston ? stroke_.travel(time) : 0.0);
+    const double distance = inward(side) * (flight.at(time, model_.gravity)[axis] - rest);
+    const double speed = inward(side) * flight.velocity_at(time, model_.gravity)[axis];
+    const double acceleration = inward(side) * model_.gravity[axis];
+    if (!motions_[side] && rest_velocity == 0.0) {
+      return time + fall_time(distance, speed, acceleration);
+    }
+    return moving_wall_contact(motions_[side].value_or(WallMotion{}), time, distance, speed,
+                               acceleration, rest_velocity);
   };
   // A move of the base rounds the wall's phase again. A particle that left the wall within rounding
   // then seems to touch it in the past. A contact in the past is not an event.
-  const double contact = contact_from(flight.time);
-  return contact < now ? contact_from(now) : contact;
-}
-
-template <int D>
-double Boundary<D>::innermost_travel(int side) const {
-  return model_.walls[side] ? model_.walls[side]->innermost_travel() : 0.0;
+  const auto first_contact = [&](double begin, double rest_velocity) {
+    const double contact = contact_from(begin, rest_velocity);
+    return contact < now ? contact_from(now, rest_velocity) : contact;
+  };
+  if (!piston || flight.time >= stroke_.end) return first_contact(flight.time, 0.0);
+  const double contact = first_contact(std::max(flight.time, stroke_.start), stroke_.velocity());
+  return contact < stroke_.end ? contact : first_contact(stroke_.end, 0.0);
 }
 
 template std::array<WallMotion, 4> wall_motions<2>(const Model<2>&);

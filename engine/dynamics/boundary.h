@@ -6,6 +6,7 @@
 #include "engine/dynamics/clock.h"
 #include "engine/dynamics/model.h"
 #include "engine/physics/flight.h"
+#include "engine/physics/piston.h"
 #include "engine/physics/wall_motion.h"
 
 namespace clatter {
@@ -19,12 +20,18 @@ std::array<WallMotion, 2 * D> wall_motions(const Model<D>& model);
 template <int D>
 class Boundary {
  public:
-  /// The walls of `model`, which must outlive this object. For `phase_shifts` see RunState.
+  /// The walls of `model`, which must outlive this object. For `phase_shifts` and `piston` see
+  /// RunState.
   Boundary(const Model<D>& model, const Clock& clock,
-           const std::array<double, 2 * D>& phase_shifts = {});
+           const std::array<double, 2 * D>& phase_shifts = {},
+           const std::optional<PistonStroke>& piston = {});
 
-  /// Computes the phases of moving walls at the clock's new base.
+  /// Computes the phases of moving walls and the times of the piston at the clock's new base.
   void move_base(const Clock& clock);
+  /// Replaces the stroke of the piston. Then the base must move.
+  void begin(const PistonStroke& stroke) { piston_ = stroke; }
+  /// The last stroke of the piston, at simulation times; absent: none yet.
+  const std::optional<PistonStroke>& piston() const { return piston_; }
 
   /// Added to the phases of the walls, in periods.
   const std::array<double, 2 * D>& phase_shifts() const { return phase_shifts_; }
@@ -35,8 +42,8 @@ class Boundary {
   double touching_place(int side, double time) const;
   /// Time, not before `now`, at which a flight touches a wall; kNever without a contact.
   double contact_time(int side, const Flight<D>& flight, double now) const;
-  /// Largest displacement of a wall into the box.
-  double innermost_travel(int side) const;
+  /// Largest displacement of a wall into the box, until the next stroke of the piston.
+  double innermost_travel(int side) const { return innermost_[side]; }
 
   /// +1 for the near wall of an axis, -1 for the far one: the direction into the box.
   static double inward(int side) { return side % 2 ? -1.0 : 1.0; }
@@ -45,6 +52,9 @@ class Boundary {
   const Model<D>& model_;
   std::array<double, 2 * D> phase_shifts_;
   std::array<std::optional<WallMotion>, 2 * D> motions_;  // of the walls that move
+  std::optional<PistonStroke> piston_;
+  PistonStroke stroke_;  // the same, at times on the base
+  std::array<double, 2 * D> innermost_;
 };
 
 extern template class Boundary<2>;

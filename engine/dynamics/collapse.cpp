@@ -65,6 +65,18 @@ static double drive_of(const Model<D>& model) {
   return drive;
 }
 
+// Thermal speed of the hottest wall that emits.
+template <int D>
+static double emission_of(const Model<D>& model) {
+  double temperature = 0.0;
+  for (const auto& wall : model.walls) {
+    if (wall && wall->kind == WallKind::Thermal) {
+      temperature = std::max(temperature, wall->temperature);
+    }
+  }
+  return std::sqrt(temperature);
+}
+
 // Speed that particles reach without walls: the larger of a fall across the box and a kick.
 template <int D>
 static double free_speed(const Model<D>& model) {
@@ -75,18 +87,31 @@ static double free_speed(const Model<D>& model) {
 // Walls with restitution > 1 multiply speeds: beyond 1e60, products of speeds would soon overflow.
 // Walls that only add speed, in a gas without losses, make speeds grow as exp(t). The number of
 // collisions grows alike, and one more e-folding beyond kMaxGrowth costs a million of them.
+//
+// In a gas that a piston compresses to close packing, speeds grow as the inverse of the room of a
+// particle, and the number of collisions grows alike, also if t_c ends the losses. The limit is
+// lower, so that the run stops after some 10^4 collisions of each particle. Without close packing a
+// thousandfold speed needs a millionth of the area of a gas of disks.
 template <int D>
-double fastest_speed(const Model<D>& model, double start_speed) {
+double fastest_speed(const Model<D>& model, double start_speed, bool piston) {
   constexpr double kFastest = 1e60;
-  constexpr double kMaxGrowth = 1e6;
+  constexpr double kMaxGrowth = 1e6, kMaxCompressed = 1e3;
   if (gains(model)) return kFastest;
   const double drive = drive_of(model);
-  if (!(drive > 0.0 && is_lossless(model))) return kNever;
-  return kMaxGrowth * std::max({drive, start_speed, free_speed(model)});
+  const double usual = std::max({drive, start_speed, free_speed(model)});
+  if (drive > 0.0 && is_lossless(model)) return kMaxGrowth * usual;
+  return piston ? kMaxCompressed * std::max(usual, emission_of(model)) : kNever;
+}
+
+static PhysicalStop no_room(double time, double temperature) {
+  return PhysicalStop("the piston leaves the particles no room at t = " + rounded(time) +
+                      ", where the temperature has reached " + rounded(temperature) +
+                      "; let it stop at a larger position");
 }
 
 template <int D>
-PhysicalStop divergence(const Model<D>& model, double time, double temperature) {
+PhysicalStop divergence(const Model<D>& model, double time, double temperature, bool compressed) {
+  if (compressed && !gains(model)) return no_room(time, temperature);
   return PhysicalStop("the temperature diverges at t = " + rounded(time) + ", having reached " +
                       rounded(temperature) + ", a speed of " + rounded(std::sqrt(D * temperature)) +
                       (gains(model) ? ": walls with restitution > 1 add more energy than the gas "
@@ -102,8 +127,10 @@ static bool is_thermal_wall(const Model<D>& model, std::uint32_t partner) {
 
 template <int D>
 PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double time,
-                        double temperature) {
-  if (diverges<D>(model, watchdog, temperature)) return divergence<D>(model, time, temperature);
+                        double temperature, bool compressed) {
+  if (diverges<D>(model, watchdog, temperature)) {
+    return divergence<D>(model, time, temperature, compressed);
+  }
   const auto [particle, partner] = watchdog.busiest_pair();
   const std::string what = "time does not advance beyond t = " + rounded(time) + ": particle " +
                            std::to_string(particle) + " and " + partner_name(partner) +
@@ -118,17 +145,24 @@ PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double 
   if (helpful == 0.0) {
     return PhysicalStop(what + " since the start; set collapse.contact_time");
   }
+  if (compressed) {
+    return PhysicalStop(
+        what +
+        ", while the piston compresses the gas (inelastic collapse, or no room); "
+        "let the piston stop at a larger position, or set collapse.contact_time to " +
+        rounded(helpful) + " or more");
+  }
   const std::string contact_time = rounded(helpful);
   return PhysicalStop(what + " (inelastic collapse, or rest); set collapse.contact_time to " +
                           contact_time + " or more",
                       "collapse.contact_time=" + contact_time);
 }
 
-template double fastest_speed<2>(const Model<2>&, double);
-template double fastest_speed<3>(const Model<3>&, double);
-template PhysicalStop divergence<2>(const Model<2>&, double, double);
-template PhysicalStop divergence<3>(const Model<3>&, double, double);
-template PhysicalStop standstill<2>(const Model<2>&, const Watchdog&, double, double);
-template PhysicalStop standstill<3>(const Model<3>&, const Watchdog&, double, double);
+template double fastest_speed<2>(const Model<2>&, double, bool);
+template double fastest_speed<3>(const Model<3>&, double, bool);
+template PhysicalStop divergence<2>(const Model<2>&, double, double, bool);
+template PhysicalStop divergence<3>(const Model<3>&, double, double, bool);
+template PhysicalStop standstill<2>(const Model<2>&, const Watchdog&, double, double, bool);
+template PhysicalStop standstill<3>(const Model<3>&, const Watchdog&, double, double, bool);
 
 }  // namespace clatter

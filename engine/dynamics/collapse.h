@@ -7,19 +7,20 @@
 namespace clatter {
 
 /// The error of a run whose simulation time no longer advances: cause, place, and the setting with
-/// which the run would continue.
+/// which the run would continue. `compressed`: the piston moves in.
 template <int D>
 PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double time,
-                        double temperature);
+                        double temperature, bool compressed);
 
 /// Speed limit of a run whose fastest particle began with `start_speed`. A faster particle shows
-/// that walls heat the gas without bound. kNever if walls do not heat, or if dissipation may
-/// balance them.
+/// that walls heat the gas without bound, or that a piston leaves it no room. kNever without a
+/// piston, if walls do not heat or if dissipation may balance them. `piston`: whether the piston
+/// has moved.
 template <int D>
-double fastest_speed(const Model<D>& model, double start_speed);
+double fastest_speed(const Model<D>& model, double start_speed, bool piston);
 
-/// The error of a run in which walls make the speeds diverge.
+/// The error of a run in which walls make the speeds diverge. `compressed`: the piston moves in.
 template <int D>
-PhysicalStop divergence(const Model<D>& model, double time, double temperature);
+PhysicalStop divergence(const Model<D>& model, double time, double temperature, bool compressed);
 
 }  // namespace clatter

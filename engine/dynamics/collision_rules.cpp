@@ -26,7 +26,8 @@ PairOutcome<D> pair_outcome(const Model<D>& model, const Vec<D>& x, const Vec<D>
 }
 
 template <int D>
-static Departure<D> emitted(const Model<D>& model, int side, const Arrival<D>& arrival) {
+static Departure<D> emitted(const Model<D>& model, int side, const WallState& wall,
+                            const Arrival<D>& arrival) {
   const double temperature = model.walls[side]->temperature;
   Random random(model.seed, Stream::ThermalWall, arrival.particle, arrival.flight);
   const double uniform = random.uniform();
@@ -35,6 +36,7 @@ static Departure<D> emitted(const Model<D>& model, int side, const Arrival<D>& a
   Departure<D> departure;
   departure.velocity =
       emit<D>(side / 2, Boundary<D>::inward(side), temperature, uniform, normals.data());
+  departure.velocity[side / 2] += Boundary<D>::inward(side) * wall.velocity;
   if (model.spins) {
     std::array<double, Spin<D>::SizeAtCompileTime> spin_normals;
     for (double& normal : spin_normals) normal = random.normal();
@@ -65,16 +67,16 @@ template <int D>
 Departure<D> wall_outcome(const Model<D>& model, int side, const WallState& wall,
                           const Arrival<D>& arrival, bool elastic) {
   const Wall& spec = *model.walls[side];
-  if (spec.kind == WallKind::Thermal) return emitted<D>(model, side, arrival);
+  if (spec.kind == WallKind::Thermal) return emitted<D>(model, side, wall, arrival);
   const int axis = side / 2;
   const double inward = Boundary<D>::inward(side);
   ContactLaw law = contact_law(spec.restitution, spec.roughness);
   if (elastic) law = {.restitution = std::max(law.restitution, 1.0)};
   Departure<D> departure;
-  departure.velocity =
-      spec.moves()
-          ? reflect_moving<D>(arrival.velocity, axis, inward, law.restitution, wall.velocity)
-          : reflect<D>(arrival.velocity, axis, inward, law.restitution, spec.drive_speed);
+  departure.velocity = spec.moves() ? reflect_moving<D>(arrival.velocity, axis, inward,
+                                                        law.restitution, wall.velocity)
+                                    : reflect<D>(arrival.velocity, axis, inward, law.restitution,
+                                                 spec.drive_speed, wall.velocity);
   if (elastic) {
     const double approach = std::fabs(inward * arrival.velocity[axis] - wall.velocity);
     const double least = wall.velocity + least_rebound<D>(model, side, wall, approach);

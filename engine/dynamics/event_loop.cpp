@@ -1,6 +1,7 @@
 #include "engine/dynamics/event_loop.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -78,10 +79,10 @@ EventLoop<D>::EventLoop(const Model<D>& model, const Boundary<D>& boundary, RunS
       near_(model, static_cast<double>(gas_.particles.size())),
       prediction_(model, boundary, gas_.particles, near_),
       until_base_moves_(saved.until_base_moves),
-      fastest_(fastest_speed<D>(model, saved.start_speed)),
+      fastest_(fastest_speed<D>(model, saved.start_speed, saved.counts.strokes > 0)),
       counts_(saved.counts),
       checks_(saved.checks) {
-  if (may_collapse(model)) {
+  if (may_collapse(model) || saved.counts.strokes > 0) {
     watchdog_.emplace(gas_.particles.size(), now_, saved.mean_collision_time);
   }
 }
@@ -318,6 +319,15 @@ typename EventLoop<D>::Halt EventLoop<D>::process_foreseen(const ForeseenEvent<D
 template <int D>
 bool EventLoop<D>::is_too_fast(std::uint32_t number) const {
   return fastest_ < kNever && gas_.particles[number].flight.v.cwiseAbs().maxCoeff() > fastest_;
+}
+
+template <int D>
+double EventLoop<D>::fastest_now() const {
+  double square = 0.0;
+  for (const Particle<D>& particle : gas_.particles) {
+    square = std::max(square, particle.flight.velocity_at(now_, model_.gravity).squaredNorm());
+  }
+  return std::sqrt(square);
 }
 
 template <int D>

@@ -106,8 +106,14 @@ class EventLoop {
   std::vector<NewVelocity<D>> velocities_after(const Nudge& nudge) const;
   /// Sets velocities as the result of a nudge. Then the base must move.
   void nudge(const std::vector<NewVelocity<D>>& velocities);
+  /// Notes that the piston begins a stroke. Then the base must move.
+  void begin_stroke();
+  /// The speed of the fastest particle now.
+  double fastest_now() const;
   /// Raises the speed above which speeds diverge to that of a run with this speed at its start.
-  void allow_start_speed(double speed) { fastest_ = fastest_speed<D>(model_, speed); }
+  void allow_start_speed(double speed) {
+    fastest_ = fastest_speed<D>(model_, speed, counts_.strokes > 0);
+  }
   /// Whether the base must move before the next event: its number of events is reached, or a
   /// particle has become too fast for the precision of times.
   bool base_due() const { return until_base_moves_ == 0; }

@@ -289,6 +289,12 @@ void EventLoop<D>::nudge(const std::vector<NewVelocity<D>>& velocities) {
   if (watchdog_) watchdog_.emplace(gas_.particles.size(), now_);
 }
 
+template <int D>
+void EventLoop<D>::begin_stroke() {
+  ++counts_.strokes;
+  watchdog_.emplace(gas_.particles.size(), now_);
+}
+
 template void EventLoop<2>::enter_next_cell(std::uint32_t);
 template void EventLoop<3>::enter_next_cell(std::uint32_t);
 template bool EventLoop<2>::note(const Event&, const IntVec<2>&);
@@ -313,6 +319,8 @@ template void EventLoop<2>::collide(std::uint32_t, std::uint32_t, const IntVec<2
 template void EventLoop<3>::collide(std::uint32_t, std::uint32_t, const IntVec<3>&);
 template void EventLoop<2>::hit_wall(std::uint32_t, int);
 template void EventLoop<3>::hit_wall(std::uint32_t, int);
+template void EventLoop<2>::begin_stroke();
+template void EventLoop<3>::begin_stroke();
 template void EventLoop<2>::kick();
 template void EventLoop<3>::kick();
 template std::vector<NewVelocity<2>> EventLoop<2>::velocities_after(const Nudge&) const;

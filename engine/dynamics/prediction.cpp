@@ -31,12 +31,7 @@ Prediction<D>::Prediction(const Model<D>& model, const Boundary<D>& boundary,
       particles_(particles),
       near_(near),
       walled_(std::any_of(model.walls.begin(), model.walls.end(), [](const auto& w) { return w; })),
-      planners_(model.has_gravity() ? widest_planners<true>() : widest_planners<false>()) {
-  // Slightly farther than the wall moves in, so that rounding at a cell's border does not matter.
-  for (int side = 0; side < 2 * D; ++side) {
-    reach_[side] = 0.51 * model.diameter + boundary.innermost_travel(side);
-  }
-}
+      planners_(model.has_gravity() ? widest_planners<true>() : widest_planners<false>()) {}
 
 // Order of two periodic images through which one pair touches at the same time. The order is the
 // same from either particle.
@@ -190,12 +185,15 @@ void Prediction<D>::offer_first(std::uint32_t particle, const Candidates<D>& nea
   }
 }
 
+// A wall's reach is slightly farther than the wall moves in, so that rounding at a cell's border
+// does not matter.
 template <int D>
 void Prediction<D>::look_at_walls(std::uint32_t particle, double now, Plan<D>& plan) const {
   for (int axis = 0; axis < D; ++axis) {
     if (model_.periodic(axis)) continue;
     for (const int side : {2 * axis, 2 * axis + 1}) {
-      if (near_.distance_from_end(particle, plan.cell, axis, side % 2) > reach_[side]) continue;
+      const double reach = 0.51 * model_.diameter + boundary_.innermost_travel(side);
+      if (near_.distance_from_end(particle, plan.cell, axis, side % 2) > reach) continue;
       offer(boundary_.contact_time(side, particles_[particle].flight, now), particle,
             kWall + static_cast<std::uint32_t>(side), IntVec<D>::Zero(), plan);
     }

@@ -119,7 +119,6 @@ class Prediction {
   const std::uint32_t* numbers_ = nullptr;
   bool walled_;  // whether there are walls
   Planners planners_;
-  std::array<double, 2 * D> reach_;  // range of each side's wall, from the box's edge
 };
 
 extern template class Prediction<2>;

@@ -19,6 +19,11 @@ static bool is_motion(const WallMotion& motion) {
          std::isfinite(motion.stroke * motion.frequency + motion.phase);
 }
 
+static bool is_stroke(const PistonStroke& stroke) {
+  return stroke.from >= 0.0 && stroke.to >= 0.0 && stroke.end > stroke.start &&
+         std::isfinite(stroke.from + stroke.to + stroke.start + stroke.end + stroke.velocity());
+}
+
 template <int D>
 bool makes_sense(const RunState<D>& state) {
   const std::size_t count = state.flights.size();
@@ -38,6 +43,7 @@ bool makes_sense(const RunState<D>& state) {
          (state.kick_interval == 0.0 || kicked + state.kick_interval >= time * (1.0 - kLate)) &&
          fits(state.spins) && fits(state.last_collisions) && fits(state.remainders) &&
          std::ranges::all_of(state.wall_motions, is_motion) &&
+         (!state.piston || is_stroke(*state.piston)) &&
          std::ranges::all_of(state.phase_shifts, [](double s) { return std::isfinite(s); }) &&
          std::ranges::all_of(
              state.flights,

@@ -2,11 +2,13 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <variant>
 #include <vector>
 
 #include "engine/dynamics/clock.h"
 #include "engine/physics/flight.h"
+#include "engine/physics/piston.h"
 #include "engine/physics/spin.h"
 #include "engine/physics/wall_motion.h"
 
@@ -21,6 +23,7 @@ struct EventCounts {
   std::uint64_t wall_collisions = 0;
   std::uint64_t kicks = 0;             ///< of bulk driving, each of all particles
   std::uint64_t nudges = 0;            ///< of the scene's changes
+  std::uint64_t strokes = 0;           ///< of the piston, by the scene's changes
   std::uint64_t elasticised = 0;       ///< pair collisions that the TC model made elastic
   std::uint64_t elasticised_wall = 0;  ///< collisions with walls that the TC model made elastic
   /// Exits of particles from their cells or, with NeighbourLists, from their regions.
@@ -52,6 +55,7 @@ struct RunState {
   std::array<WallMotion, 2 * D> wall_motions;
   /// Added to the phases of these motions, in periods: the result of changes of frequency.
   std::array<double, 2 * D> phase_shifts = {};
+  std::optional<PistonStroke> piston;   ///< its last stroke, at simulation times; absent: none yet
   LongTime base;                        ///< simulation time of the moving base
   double now = 0.0;                     ///< on the base
   std::vector<Flight<D>> flights;       ///< [N] in original order
@@ -60,9 +64,10 @@ struct RunState {
   std::vector<Vec<D>> remainders;       ///< [N] exact positions - flights.r, or empty: all 0
   std::uint64_t until_base_moves = 0;   ///< physical events left
   double mean_collision_time = 0.0;     ///< of a particle, see Watchdog; 0: not known
-  double start_speed = 0.0;             ///< of the fastest particle at the start or after a nudge
-  double kick_interval = 0.0;           ///< of bulk driving; 0: none
-  double kick_origin = 0.0;             ///< simulation time from which kicks are counted
+  /// Of the fastest particle at the start or after a nudge, or of a stroke of the piston.
+  double start_speed = 0.0;
+  double kick_interval = 0.0;  ///< of bulk driving; 0: none
+  double kick_origin = 0.0;    ///< simulation time from which kicks are counted
   std::uint64_t kicks_since_origin = 0;
   EventCounts counts;
   RunChecks checks;
@@ -81,9 +86,9 @@ using AnyRunState = std::variant<RunState<2>, RunState<3>>;
 /// Visits the counts that the run determines, in order. The others depend on cells and tiles.
 template <class Archive>
 void visit(Archive& io, EventCounts& counts) {
-  auto& [pair_collisions, wall_collisions, kicks, nudges, elasticised, elasticised_wall,
+  auto& [pair_collisions, wall_collisions, kicks, nudges, strokes, elasticised, elasticised_wall,
          cell_crossings, stale] = counts;
-  io(pair_collisions, wall_collisions, kicks, nudges, elasticised, elasticised_wall);
+  io(pair_collisions, wall_collisions, kicks, nudges, strokes, elasticised, elasticised_wall);
 }
 
 /// Visits all members, in order.
@@ -110,6 +115,13 @@ void visit(Archive& io, WallMotion& motion) {
 }
 
 /// Visits all members, in order.
+template <class Archive>
+void visit(Archive& io, PistonStroke& stroke) {
+  auto& [from, to, start, end] = stroke;
+  io(from, to, start, end);
+}
+
+/// Visits all members, in order.
 template <class Archive, int D>
 void visit(Archive& io, Flight<D>& flight) {
   auto& [r, v, time, number] = flight;
@@ -119,11 +131,11 @@ void visit(Archive& io, Flight<D>& flight) {
 /// Visits all members, in order, and requires that the state makes sense.
 template <class Archive, int D>
 void visit(Archive& io, RunState<D>& state) {
-  auto& [gravity, wall_motions, phase_shifts, base, now, flights, spins, last_collisions,
+  auto& [gravity, wall_motions, phase_shifts, piston, base, now, flights, spins, last_collisions,
          remainders, until_base_moves, mean_collision_time, start_speed, kick_interval, kick_origin,
          kicks_since_origin, counts, checks] = state;
-  io(gravity, wall_motions, phase_shifts, base, now, flights, spins, last_collisions, remainders,
-     until_base_moves, mean_collision_time, start_speed, kick_interval, kick_origin,
+  io(gravity, wall_motions, phase_shifts, piston, base, now, flights, spins, last_collisions,
+     remainders, until_base_moves, mean_collision_time, start_speed, kick_interval, kick_origin,
      kicks_since_origin, counts, checks);
   io.require(makes_sense(state));
 }

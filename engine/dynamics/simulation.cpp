@@ -126,7 +126,7 @@ template <int D>
 Simulation<D>::Simulation(InParts, const Model<D>& model, RunState<D> saved)
     : model_(model),
       clock_(saved.base),
-      boundary_(model_, clock_, phase_shifts<D>(model_, saved)),
+      boundary_(model_, clock_, phase_shifts<D>(model_, saved), saved.piston),
       start_speed_(saved.start_speed),
       kick_origin_(saved.kick_origin),
       kicks_since_origin_(saved.kicks_since_origin),
@@ -273,10 +273,22 @@ double Simulation<D>::deepest_overlap(const StopRequest& stop) const {
 template <int D>
 void Simulation<D>::attend_to(typename EventLoop<D>::Halt halt) {
   if (loop_.base_due()) move_base();
-  if (halt == EventLoop<D>::Halt::Diverges) throw divergence<D>(model_, time(), temperature());
-  if (halt == EventLoop<D>::Halt::StandsStill) {
-    throw standstill<D>(model_, *loop_.watchdog(), time(), temperature());
+  if (halt == EventLoop<D>::Halt::Diverges) {
+    // The limit of a gas with a piston holds only while it moves in.
+    const bool diverges = fastest_speed<D>(model_, start_speed_, false) < kNever || compresses();
+    if (diverges) throw divergence<D>(model_, time(), temperature(), compresses());
+    allow_speed(loop_.fastest_now());
   }
+  if (halt == EventLoop<D>::Halt::StandsStill) {
+    throw standstill<D>(model_, *loop_.watchdog(), time(), temperature(), compresses());
+  }
+}
+
+// Whether the piston moves into the box now.
+template <int D>
+bool Simulation<D>::compresses() const {
+  const std::optional<PistonStroke>& piston = boundary_.piston();
+  return piston && piston->moves_at(time()) && piston->velocity() > 0.0;
 }
 
 template <int D>
@@ -320,11 +332,27 @@ bool Simulation<D>::run_until(double time, std::uint64_t collisions, std::uint64
 template <int D>
 void Simulation<D>::nudge(const Nudge& nudge) {
   const std::vector<NewVelocity<D>> velocities = loop_.velocities_after(nudge);
-  for (const NewVelocity<D>& next : velocities) {
-    start_speed_ = std::max(start_speed_, next.velocity.norm());
-  }
+  for (const NewVelocity<D>& next : velocities) allow_speed(next.velocity.norm());
   loop_.nudge(velocities);
+  move_base();
+}
+
+// Raises the speed limit as if the run had started with a particle of this speed.
+template <int D>
+void Simulation<D>::allow_speed(double speed) {
+  start_speed_ = std::max(start_speed_, speed);
   loop_.allow_start_speed(start_speed_);
+}
+
+// The base moves, as at a nudge.
+template <int D>
+void Simulation<D>::move_piston(double position, double start, double end) {
+  const std::optional<PistonStroke>& before = boundary_.piston();
+  const PistonStroke stroke{before ? before->travel(start) : 0.0, model_.box[0] - position, start,
+                            end};
+  boundary_.begin(stroke);
+  loop_.begin_stroke();
+  allow_speed(std::max(2.0 * std::fabs(stroke.velocity()), loop_.fastest_now()));
   move_base();
 }
 
@@ -366,6 +394,7 @@ RunState<D> Simulation<D>::save() const {
   saved.gravity = model_.gravity;
   saved.wall_motions = wall_motions<D>(model_);
   saved.phase_shifts = boundary_.phase_shifts();
+  saved.piston = boundary_.piston();
   saved.base = clock_.base();
   saved.start_speed = start_speed_;
   saved.kick_interval = kick_interval<D>(model_);

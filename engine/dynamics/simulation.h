@@ -75,6 +75,10 @@ class Simulation {
   /// Changes velocities now. All events up to now must have been processed, as after run_until().
   /// Throws PhysicalStop if a particle would be too fast; the state then is unchanged.
   void nudge(const Nudge& nudge);
+  /// Moves the rest position of the right wall, a piston, from its present place to `position` on
+  /// the x axis, at constant velocity from `start`, the time now, to `end`. All events up to now
+  /// must have been processed.
+  void move_piston(double position, double start, double end);
   /// The state that determines the run's future, together with the model and the timers.
   RunState<D> save() const;
   /// Reports every event from now on to an observer, which must outlive the simulation.
@@ -131,6 +135,8 @@ class Simulation {
   void fire(Timer& timer);
   double next_kick() const;
   void move_base();
+  bool compresses() const;
+  void allow_speed(double speed);
   void attend_to(typename EventLoop<D>::Halt halt);
   void choose_way();
   void leave_tiles();
@@ -145,7 +151,7 @@ class Simulation {
   Model<D> model_;
   Clock clock_;
   Boundary<D> boundary_;
-  double start_speed_;  // of the fastest particle at the start and of nudged particles
+  double start_speed_;  // see RunState
   double kick_origin_;  // simulation time from which kicks are counted
   std::uint64_t kicks_since_origin_;
   std::deque<Timer> timers_;  // keep their addresses while an action adds timers

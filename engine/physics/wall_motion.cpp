@@ -190,18 +190,20 @@ double innermost_travel(const WallMotion& motion) {
 }
 
 double moving_wall_contact(const WallMotion& motion, double start, double distance, double speed,
-                           double acceleration) {
+                           double acceleration, double rest_velocity) {
   const WallState wall = wall_state(motion, start);
+  const double wall_velocity = wall.velocity + rest_velocity;
   const bool touching = distance <= wall.displacement;
   if (touching) {
-    const double recession = speed - wall.velocity;
-    const double rounding = kApproachRounding * (std::fabs(speed) + std::fabs(wall.velocity));
+    const double recession = speed - wall_velocity;
+    const double rounding = kApproachRounding * (std::fabs(speed) + std::fabs(wall_velocity));
     const bool pressed = acceleration < wall.acceleration;
     if (recession < -rounding || (recession <= rounding && pressed)) return start;
     // The remaining overlap and approach are rounding; remove them.
     distance = wall.displacement;
-    speed = std::max(speed, wall.velocity);
+    speed = std::max(speed, wall_velocity);
   }
+  speed -= rest_velocity;
   Approach particle{motion, distance - wall.displacement, distance, speed, acceleration};
   particle.motion.phase = fraction(motion.frequency * start + motion.phase);
   const bool at_rest = motion.stroke * motion.frequency == 0.0;

@@ -36,12 +36,13 @@ double innermost_travel(const WallMotion& motion);
 /// First time >= `start` at which a particle meets the moving wall, or kNever. The distance of its
 /// contact point from the wall's rest position, inwards, is distance + speed t + acceleration t^2/2
 /// with t = time - start.
+/// `rest_velocity` is the velocity of the rest position, constant from `start` on.
 ///
 /// A particle may touch the wall at `start`, or be behind it by rounding. It then hits the wall at
 /// once if it approaches faster than the rounding of the speeds. It also does so without relative
 /// speed if the accelerations press it against the wall. Otherwise the result is its next contact,
 /// later than `start`. The jump back of the saw-tooth hits no particle.
 double moving_wall_contact(const WallMotion& motion, double start, double distance, double speed,
-                           double acceleration);
+                           double acceleration, double rest_velocity = 0.0);
 
 }  // namespace clatter

@@ -10,11 +10,14 @@
 namespace clatter {
 
 /// Velocity after a static or driven wall (theory 4.1): v_n' = alpha_w |v_n| + v_dr along the
-/// wall's normal, which points into the box along +-`axis` (`inward` = +1 or -1). The other
-/// components stay.
+/// wall's normal, which points into the box along +-`axis` (`inward` = +1 or -1). Both velocities
+/// are relative to the wall, which moves at `wall_velocity` along the normal. The other components
+/// stay.
 template <int D>
-Vec<D> reflect(Vec<D> v, int axis, double inward, double restitution, double drive_speed) {
-  v[axis] = inward * (restitution * std::fabs(v[axis]) + drive_speed);
+Vec<D> reflect(Vec<D> v, int axis, double inward, double restitution, double drive_speed,
+               double wall_velocity = 0.0) {
+  const double approach = std::fabs(v[axis] - inward * wall_velocity);
+  v[axis] = inward * (restitution * approach + drive_speed + wall_velocity);
   return v;
 }
 

@@ -51,9 +51,10 @@ class CollisionLookahead {
   CollisionLookahead(const CollisionLookahead&) = delete;
   CollisionLookahead& operator=(const CollisionLookahead&) = delete;
 
-  /// False after a nudge of the run, which the copy lacks.
+  /// False after a nudge of the run or a stroke of its piston, which the copy lacks.
   bool follows(const Simulation<D>& simulation) const {
-    return simulation.counts().nudges == ahead_.counts().nudges;
+    return simulation.counts().nudges == ahead_.counts().nudges &&
+           simulation.counts().strokes == ahead_.counts().strokes;
   }
   /// The particle's first collision after `time`; times of successive calls must not decrease.
   /// Absent if the next `most_steps` steps do not reach it, at a request to pause, or if there is

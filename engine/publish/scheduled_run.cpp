@@ -34,7 +34,8 @@ template <int D>
 ScheduledRun<D>::ScheduledRun(const Scene& scene, std::uint64_t seed, const RunState<D>& saved,
                               const StopRequest& stop)
     : schedule_(scene), seed_(seed) {
-  schedule_.skip_to(Clock(saved.base).absolute(saved.now), saved.counts.nudges);
+  schedule_.skip_to(Clock(saved.base).absolute(saved.now), saved.counts.nudges,
+                    saved.counts.strokes);
   simulation_ = std::make_unique<Simulation<D>>(model_of<D>(schedule_.laws(), seed), saved, stop);
 }
 
@@ -121,12 +122,15 @@ void ScheduledRun<D>::make(const Change& change) {
 }
 
 // Makes the next change of `schedule`, which then replaces that of the run. A nudge is an event of
-// the simulation, so that observers see it.
+// the simulation, so that observers see it. A stroke of the piston is one too, so that averages
+// continue.
 template <int D>
 void ScheduledRun<D>::advance(Schedule schedule) {
   const Averages averages = schedule.ramps_next() ? Averages::Continue : Averages::Restart;
   const std::optional<Nudge> nudge =
       schedule.next_nudge() ? std::optional(*schedule.next_nudge()) : std::nullopt;
+  const std::optional<Change> stroke =
+      schedule.next_stroke() ? std::optional(*schedule.next_stroke()) : std::nullopt;
   if (nudge) simulation_->check(*nudge);
   const bool sets = schedule.next_sets();
   schedule.advance();
@@ -136,6 +140,7 @@ void ScheduledRun<D>::advance(Schedule schedule) {
         averages);
   }
   if (nudge) simulation_->nudge(*nudge);
+  if (stroke) simulation_->move_piston(*stroke->piston, stroke->time, stroke->until);
   schedule_ = std::move(schedule);
 }
 

@@ -40,6 +40,8 @@ bool remove_settings(std::vector<Change>& changes, int dimension) {
         change.set, [&](const Override& setting) { return !has_axis(setting, dimension); });
     removed += change.nudge.has_value();
     change.nudge.reset();
+    removed += change.piston.has_value();
+    change.piston.reset();
   }
   std::erase_if(changes, [](const Change& change) { return change.set.empty(); });
   return removed > 0;

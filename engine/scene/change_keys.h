@@ -40,10 +40,14 @@ void visit_nudge(Visitor& io, Nudge& nudge) {
 inline constexpr auto kChangeKeys = key_table(
     kRunCommands,
     {{"time", "t", "Simulation time of the change."},
+     {"piston", "a",
+      "New x position of the right wall at rest. It moves there at constant velocity, from `time` "
+      "to `until`."},
      {"set", "", "Keys and their new values. Only keys that can change in a run are allowed."},
      {"ramp", "",
       "Transition of numbers to their new values. Without a value the change is immediate."},
-     {"until", "t", "Simulation time at which the ramp ends. It is later than `time`."}});
+     {"until", "t",
+      "Simulation time at which the ramp or the piston ends. It is later than `time`."}});
 
 /// The keys of one item of [[change]].
 template <class Visitor>
@@ -51,8 +55,9 @@ void visit_change(Visitor& io, Change& change) {
   io.value(kChangeKeys.at("time"), change.time, at_least(0.0), kRequired);
   io.settings(kChangeKeys.at("set"), change.set);
   io.choice(kChangeKeys.at("ramp"), change.ramp, kRamps);
+  io.value(kChangeKeys.at("piston"), change.piston, above(0.0));
   io.value(kChangeKeys.at("until"), change.until, above(change.time),
-           change.ramp ? kRequired : kNotWithoutRamp);
+           change.ramp || change.piston ? kRequired : kNotWithoutRamp);
   io.table("nudge", change.nudge, [](auto& io, Nudge& nudge) { visit_nudge(io, nudge); });
 }
 

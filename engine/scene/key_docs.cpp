@@ -185,10 +185,18 @@ void add_conditions(std::vector<KeyDoc>& docs) {
   const std::map<std::string, Presence> smooth = describe(2, false).presences;
   for (KeyDoc& doc : docs) {
     bool always_required = true;
+    States needed;  // by either of several keys, and forbidden without them
     for (const auto& [decider, found] : states[doc.path()]) {
       if (!found.optional.empty()) always_required = false;
-      if (found.vary()) doc.conditions += condition(found);
+      if (!found.vary()) continue;
+      if (found.optional.empty()) {
+        needed.required.insert(needed.required.end(), found.required.begin(), found.required.end());
+        needed.forbidden = found.forbidden;
+      } else {
+        doc.conditions += condition(found);
+      }
     }
+    doc.conditions += condition(needed);
     if (always_required) doc.initial.clear();
     const auto presence = smooth.find(doc.path());
     if (presence != smooth.end() &&

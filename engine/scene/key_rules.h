@@ -55,7 +55,8 @@ inline constexpr Presence kNotWithoutSpins = {
     Presence::Forbidden, "has no meaning where nothing spins",
     "remove it, or make the particles or a wall rough: give friction above 0, or "
     "tangential_restitution above -1"};
-inline constexpr Presence kNotWithoutRamp = {Presence::Forbidden, "has no meaning without a ramp",
+inline constexpr Presence kNotWithoutRamp = {Presence::Forbidden,
+                                             "has no meaning without a ramp or a piston",
                                              "remove it, or set ramp = \"linear\""};
 inline constexpr Presence kNotOfExact = {
     Presence::Forbidden, "has no meaning for the exact estimator, which counts flights as a whole",

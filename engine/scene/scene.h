@@ -97,12 +97,16 @@ struct Override {
 /// Course of numbers to their new values.
 enum class Ramp { Linear };
 
-/// A change of laws or velocities during a run, after the events of the same time.
+/// A change of laws or velocities, or a stroke of the piston, during a run. It comes after the
+/// events of the same time.
 struct Change {
-  double time = 0.0;                ///< simulation time, >= 0
-  std::vector<Override> set = {};   ///< keys that may change live, all at once; empty: none
-  std::optional<Ramp> ramp = {};    ///< absent: the values hold from `time` on
-  double until = 0.0;               ///< of a ramp: the time at which it ends, > time
+  double time = 0.0;               ///< simulation time, >= 0
+  std::vector<Override> set = {};  ///< keys that may change live, all at once; empty: none
+  std::optional<Ramp> ramp = {};   ///< absent: the values hold from `time` on
+  /// Position on the x axis to which the rest position of the right wall moves, at constant
+  /// velocity from `time` to `until`; absent: the wall does not move.
+  std::optional<double> piston = {};
+  double until = 0.0;               ///< of a ramp or the piston: the time at which it ends, > time
   std::optional<Nudge> nudge = {};  ///< of velocities, after the change of laws; absent: none
 
   bool operator==(const Change&) const = default;

@@ -11,6 +11,7 @@
 #include "engine/scene/enum_names.h"
 #include "engine/scene/limits.h"
 #include "engine/scene/marked_text.h"
+#include "engine/scene/piston.h"
 #include "engine/scene/scene_document.h"
 #include "engine/scene/text.h"
 
@@ -298,16 +299,17 @@ void check_followed(const Scene& scene, const toml::table& root, const std::stri
   }
 }
 
-void check_nudges(const Scene& scene, const toml::table& root, const std::string& file) {
+void check_change_tables(const Scene& scene, const toml::table& root, const std::string& file) {
+  const auto place_in = [&](std::size_t number, const std::string& key) {
+    const toml::table& item = *(*root["change"].as_array())[number].as_table();
+    return key.empty() ? place_of(item, file) : place_of(item, key, file);
+  };
   for (std::size_t number = 0; number < scene.changes.size(); ++number) {
     const Change& change = scene.changes[number];
-    const toml::table& item = *(*root["change"].as_array())[number].as_table();
-    const auto place = [&](const std::string& key) {
-      return key.empty() ? place_of(item, file) : place_of(item, key, file);
-    };
-    if (change.set.empty() && !change.nudge) {
-      throw UserError(place(""), "the change has neither 'set' nor 'nudge'",
-                      "give new values of keys, a nudge, or both");
+    const auto place = [&](const std::string& key) { return place_in(number, key); };
+    if (change.set.empty() && !change.nudge && !change.piston) {
+      throw UserError(place(""), "the change has none of 'set', 'nudge' and 'piston'",
+                      "give new values of keys, a nudge, or a position of the piston");
     }
     if (!change.nudge) continue;
     if (change.ramp) {
@@ -318,6 +320,9 @@ void check_nudges(const Scene& scene, const toml::table& root, const std::string
       return place("nudge" + std::string(key.empty() ? "" : ".") + std::string(key));
     });
   }
+  check_pistons(scene, [&](std::size_t number, std::string_view key) {
+    return place_in(number, std::string(key));
+  });
 }
 
 /// The number of particles from either of the scene's two keys; absent without both.

@@ -137,11 +137,19 @@ const Nudge* Schedule::next_nudge() const {
   return nudge ? &*nudge : nullptr;
 }
 
-// A run that halted between the events of a time and its nudge has this time, with rounding.
-void Schedule::skip_to(double time, std::uint64_t nudges) {
+const Change* Schedule::next_stroke() const {
+  const Change& change = (*changes_)[next_change()];
+  return change.piston ? &change : nullptr;
+}
+
+// A run that halted between the events of a time and its nudge or stroke has this time, with
+// rounding.
+void Schedule::skip_to(double time, std::uint64_t nudges, std::uint64_t strokes) {
   constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
   while (next() <= time) {
-    if (next_nudge() && nudges-- == 0 && next() * (1.0 + kRoundings) >= time) return;
+    const bool now = next() * (1.0 + kRoundings) >= time;
+    if (next_nudge() && nudges-- == 0 && now) return;
+    if (next_stroke() && strokes-- == 0 && now) return;
     advance();
   }
 }

@@ -31,14 +31,18 @@ class Schedule {
   double next() const;
   /// The nudge of the next change, which belongs after its change of laws; nullptr: none.
   const Nudge* next_nudge() const;
+  /// The next change, if it is a stroke of the piston; nullptr: it is none.
+  const Change* next_stroke() const;
   /// Whether the next change has laws.
   bool next_sets() const { return !(*changes_)[next_change()].set.empty(); }
   /// Makes the next change of laws, if it has any. Throws UserError if the result is invalid, or
   /// needs another gas or box.
   void advance();
-  /// Makes all changes up to and at the simulation time of a run that has had `nudges` nudges. A
-  /// nudge at this time that the run has not had stays, with all changes after it.
-  void skip_to(double time, std::uint64_t nudges = ~std::uint64_t{0});
+  /// Makes all changes up to and at the simulation time of a run that has had so many nudges and
+  /// strokes of the piston. A nudge or stroke at this time that the run has not had stays, with all
+  /// changes after it.
+  void skip_to(double time, std::uint64_t nudges = ~std::uint64_t{0},
+               std::uint64_t strokes = ~std::uint64_t{0});
   /// Adds a change at the current time or later.
   void add(const Change& change);
 

@@ -68,6 +68,13 @@ std::string extreme_nudges(std::minstd_rand& random) {
   return "[{ time = 0.1, nudge = { " + region + ", " + kMeans[means] + value + " } }]";
 }
 
+// A list of two strokes of the piston.
+std::string extreme_strokes(std::minstd_rand& random) {
+  const std::string time = extreme_number(random);
+  return "[{ time = 0.1, piston = " + extreme_number(random) + ", until = " + time +
+         " }, { time = " + time + ", piston = " + extreme_number(random) + ", until = 5 }]";
+}
+
 std::string extreme_value(std::minstd_rand& random) {
   constexpr std::array<const char*, 20> kWords = {
       "static",   "driven", "thermal",  "sawtooth",  "sinusoidal", "exact",  "snapshot",
@@ -104,7 +111,7 @@ std::string extreme_setting(const std::vector<std::string>& keys, std::minstd_ra
     case 0:
       return "box.size=" + narrow_box(random);
     case 1:
-      return "change=" + extreme_nudges(random);
+      return "change=" + (random() % 2 ? extreme_nudges(random) : extreme_strokes(random));
     case 2:
       return "view.captions=[{ text = 'T_{0} v^2', from = " + extreme_number(random) +
              ", to = " + extreme_number(random) + " }]";

@@ -457,6 +457,16 @@ TEST_CASE("Scene file: no key takes the value of another") {
   CHECK(scene.changes[0].until == 31.0);
 }
 
+TEST_CASE("Scene file: a stroke of the piston is read and written") {
+  const Scene scene = parse_scene(
+      "box.size = [12, 10]\nparticles.count = 4\nwalls.left.kind = 'static'\n"
+      "walls.right.kind = 'static'\n[[change]]\ntime = 2.5\npiston = 7.25\nuntil = 4\n",
+      "s.toml");
+  const std::vector<Change> stroke = {{.time = 2.5, .piston = 7.25, .until = 4.0}};
+  CHECK(scene.changes == stroke);
+  CHECK(parse_scene(scene_to_toml(scene), "again.toml").changes == stroke);
+}
+
 TEST_CASE("Scene file: every word is the choice of its name") {
   const auto scene_with = [](const std::string& line) {
     return parse_scene("particles = { count = 3, friction = 0.5 }\n" + line, "s.toml");

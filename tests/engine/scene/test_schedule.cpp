@@ -144,7 +144,7 @@ TEST_CASE("Schedule: impossible changes are refused with their place") {
   const std::string head = "[[change]]\ntime = 1\n";
   const std::vector<std::pair<std::string, std::vector<const char*>>> wrong = {
       {"[[change]]\nset = {}\n", {"s.toml:9:1", "'change.time' is missing"}},
-      {head, {"s.toml:9:1", "the change has neither 'set' nor 'nudge'"}},
+      {head, {"s.toml:9:1", "the change has none of 'set', 'nudge' and 'piston'"}},
       {head + "set = 3\n", {"s.toml:11:1", "table of keys"}},
       {head + "set = { 'particles.count' = 20 }\n",
        {"s.toml:9:1", "particles.count", "cannot change"}},
@@ -154,7 +154,7 @@ TEST_CASE("Schedule: impossible changes are refused with their place") {
       {head + "set = { 'walls.top' = { kind = 'static' } }\n", {"s.toml:9:1", "[walls.top]"}},
       {head + "sett = {}\n", {"s.toml:11:8", "unknown key 'sett'"}},
       {head + "set = {}\nuntil = 4\n",
-       {"s.toml:12:1: 'change.until' has no meaning without a ramp; remove it, or set ramp = "}},
+       {"s.toml:12:1: 'change.until' has no meaning without a ramp or a piston; remove it, or"}},
       {head + "set = {}\nramp = 'linear'\nuntil = 0.5\n", {"s.toml:13:1", "greater than 1"}},
       {head + "set = { 'particles.friction' = 0.5 }\nramp = 'linear'\nuntil = 4\n",
        {"s.toml:9:1", "'particles.friction' has no number to start from"}},
