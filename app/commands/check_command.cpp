@@ -15,6 +15,7 @@
 #include "app/system/process_usage.h"
 #include "engine/dynamics/foresight.h"
 #include "engine/physics/theory.h"
+#include "engine/scene/piston.h"
 
 namespace clatter {
 
@@ -58,6 +59,16 @@ void print_events(const Scene& scene, double end) {
   std::fprintf(stderr, "; at the start temperature %g.\n", temperature);
 }
 
+void print_piston(const Scene& scene) {
+  const double most = compressed_fraction(scene), closest = closest_packing(scene.dimension());
+  if (most <= closest) return;
+  std::fprintf(
+      stderr,
+      "The piston would compress the gas to a fraction of %.4f, beyond the closest packing "
+      "of %.4f; the run will stop there.\n",
+      most, closest);
+}
+
 int check(const CommonOptions& options) {
   const Scene scene = load(options);
   print(scene_to_toml(scene));
@@ -68,6 +79,7 @@ int check(const CommonOptions& options) {
   if (options.seed) std::fprintf(stderr, ", seed %s", std::to_string(*options.seed).c_str());
   std::fputs(".\n", stderr);
   print_events(scene, options.until.value_or(scene.measure.burn_in + scene.measure.duration));
+  print_piston(scene);
   print_way(scene);
   print_parts(scene);
   return kOk;

@@ -362,6 +362,8 @@ void Gui::use_viewport() {
     controls_.set({{"box.size", value_text(session_.scene().box)}},
                   {{"box.size", value_text(resized->box)}}, resized->shift);
   }
+  piston_hand_.use(session_, wall_grip_.piston());
+  if (const char* help = wall_grip_.help()) ImGui::SetTooltip("%s", help);
   View view = session_.view();
   const bool draws = use_pen(over);
   const bool turned = viewport_.use_mouse(frame, view, map, over && !draws && !wall_grip_.active(),

@@ -20,6 +20,7 @@
 #include "app/view/messages.h"
 #include "app/view/mouse_tools.h"
 #include "app/view/panel_visibility.h"
+#include "app/view/piston_hand.h"
 #include "app/view/playlist.h"
 #include "app/view/script_log.h"
 #include "app/view/session.h"
@@ -151,6 +152,7 @@ class Gui {
   Controls controls_;
   Viewport viewport_;
   WallGrip wall_grip_;
+  PistonHand piston_hand_;
   MouseTools mouse_tools_;
   Gallery gallery_;
   std::map<std::uint64_t, History> histories_;        // of the gases, by Frame::id

@@ -137,7 +137,7 @@ struct KeyLine {
   bool spheres_only = false;
 };
 
-constexpr std::array<KeyLine, 33> kKeys = {{
+constexpr std::array<KeyLine, 34> kKeys = {{
     {"Space", "play or pause"},
     {"B", "play backwards, or forwards again"},
     {".  ,", "next frame, previous frame"},
@@ -170,6 +170,7 @@ constexpr std::array<KeyLine, 33> kKeys = {{
     {"Scroll   F", "zoom about the cursor; fit the box"},
     {"Click a particle", "its state; double-click follows it"},
     {"Drag a wall", "resize the box; press just outside of it"},
+    {"Drag the right wall", "a piston, while the gas plays; with Shift: resize"},
     {"Drop a file", "open a scene, or the scene in a picture"},
 }};
 

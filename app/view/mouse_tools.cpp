@@ -192,10 +192,11 @@ void MouseTools::scale(Session& session) {
     return;
   }
   press_->nudged = time;
-  press_->nudges.push_back({.centre = target_->place,
-                            .radius = radius(session.scene()),
-                            .scale = press_->tool == Tool::Heat ? kFactor : 1.0 / kFactor});
-  session.nudge(press_->nudges.back());
+  const Nudge nudge{.centre = target_->place,
+                    .radius = radius(session.scene()),
+                    .scale = press_->tool == Tool::Heat ? kFactor : 1.0 / kFactor};
+  press_->acts.push_back({.nudge = nudge});
+  session.nudge(nudge);
 }
 
 void MouseTools::release(Session& session, const WindowMap& map) {
@@ -203,13 +204,14 @@ void MouseTools::release(Session& session, const WindowMap& map) {
   if (has_arrow(press.tool)) {
     if (!press.dragged) return session.tell("Drag an arrow: direction and size of the velocity");
     const VecX arrow = velocity(session.frame(), map);
-    press.nudges.push_back(
+    const Nudge nudge =
         press.tool == Tool::Kick
             ? Nudge{.centre = target_->place, .radius = radius(session.scene()), .add = arrow}
-            : Nudge{.particle = static_cast<int>(*target_->particle), .set = arrow});
-    session.nudge(press.nudges.back());
+            : Nudge{.particle = static_cast<int>(*target_->particle), .set = arrow};
+    press.acts.push_back({.nudge = nudge});
+    session.nudge(nudge);
   }
-  session.remember({.nudges = std::move(press.nudges)});
+  session.remember({.acts = std::move(press.acts)});
 }
 
 // The velocity whose distance in one second of playing is the length of the arrow, with few digits

@@ -83,7 +83,7 @@ class MouseTools {
     ImVec2 place;       // of the mouse, window units
     bool dragged = false;
     std::optional<double> nudged = {};  // simulation time of the frame at the last nudge
-    std::vector<Nudge> nudges = {};     // made so far
+    std::vector<Change> acts = {};      // nudges so far
   };
 
   double radius(const Scene& scene) const;

@@ -413,21 +413,28 @@ void Session::nudge(const Nudge& nudge) {
   send(command::Nudge{nudge});
 }
 
+void Session::move_piston(double position, double duration) {
+  unsaved_ = true;
+  note_fork();
+  log_.event("piston", {{"position", position}, {"duration", duration}, {"command", sent_ + 1}});
+  send(command::MovePiston{position, duration});
+}
+
 void Session::remember(Edit edit) {
-  const bool changes = !edit.after.empty() || !edit.nudges.empty();
+  const bool changes = !edit.after.empty() || !edit.acts.empty();
   if (changes && std::exchange(forked_, false)) edit.fork = forks_;
   edit.gas = gas_;
   done_.push_back(std::move(edit));
   undone_.clear();
 }
 
-// The last changes of a run that have these nudges, and are removed from it.
-static std::vector<Change> take_nudges(std::vector<Change>& changes,
-                                       const std::vector<Nudge>& nudges) {
+// The last changes of a run that are these acts, and are removed from it.
+static std::vector<Change> take_acts(std::vector<Change>& changes,
+                                     const std::vector<Change>& acts) {
   std::vector<Change> taken;
-  for (auto nudge = nudges.rbegin(); nudge != nudges.rend(); ++nudge) {
+  for (auto act = acts.rbegin(); act != acts.rend(); ++act) {
     const auto is_it = [&](const Change& change) {
-      return change.nudge == *nudge && change.set.empty();
+      return change.nudge == act->nudge && change.piston == act->piston && change.set.empty();
     };
     const auto after = std::find_if(changes.rbegin(), changes.rend(), is_it).base();
     if (after == changes.begin()) continue;
@@ -437,14 +444,14 @@ static std::vector<Change> take_nudges(std::vector<Change>& changes,
   return taken;
 }
 
-// Removes the nudges of an entry from the run, or puts them back at their times. The run continues
+// Removes the acts of an entry from the run, or puts them back at their times. The run continues
 // from the first of them.
-void Session::exchange_nudges(Edit& edit, bool again) {
+void Session::exchange_acts(Edit& edit, bool again) {
   std::vector<Change> changes = frame().scene->changes;
-  if (!again) edit.undone_nudges = take_nudges(changes, edit.nudges);
-  if (edit.undone_nudges.empty()) return tell("These nudges are no longer part of the run");
-  if (again) changes.insert(changes.end(), edit.undone_nudges.begin(), edit.undone_nudges.end());
-  const double from = std::ranges::min(edit.undone_nudges, {}, &Change::time).time;
+  if (!again) edit.undone_acts = take_acts(changes, edit.acts);
+  if (edit.undone_acts.empty()) return tell("These changes are no longer part of the run");
+  if (again) changes.insert(changes.end(), edit.undone_acts.begin(), edit.undone_acts.end());
+  const double from = std::ranges::min(edit.undone_acts, {}, &Change::time).time;
   log_.event("replace_changes",
              {{"changes", changes.size()}, {"from", from}, {"command", sent_ + 1}});
   const bool plays = plays_;
@@ -464,13 +471,13 @@ void Session::apply(Edit& edit, bool again) {
   } else if (!edit.after.empty()) {
     set(again ? edit.after : edit.before, again ? edit.shift : -edit.shift);
     if (std::exchange(forked_, false)) edit.fork = forks_;
-  } else if (!edit.nudges.empty()) {
-    exchange_nudges(edit, again);
+  } else if (!edit.acts.empty()) {
+    exchange_acts(edit, again);
   }
   if (edit.views) set_view((*edit.views)[again ? 1 : 0]);
 }
 
-// Whether the last entry must wait: it has nudges that no frame has yet, or another gas is
+// Whether the last entry must wait: it has acts that no frame has yet, or another gas is
 // selected, which is selected now.
 bool Session::must_wait(const std::vector<Edit>& edits) {
   const Edit& last = edits.back();
@@ -478,7 +485,7 @@ bool Session::must_wait(const std::vector<Edit>& edits) {
     select(last.gas);
     return true;
   }
-  return !last.nudges.empty() && frame().handled != sent_;
+  return !last.acts.empty() && !is_answered();
 }
 
 // Removes the last entries of gases that no longer exist, since a scene was opened.

@@ -29,8 +29,10 @@ struct Edit {
   std::vector<OpenedScene> scenes = {};
   /// Number of the change in the past whose two futures the entry exchanges; 0: none.
   std::uint64_t fork = 0;
-  std::vector<Nudge> nudges = {};          ///< that the entry made; undo removes them from the run
-  std::vector<Change> undone_nudges = {};  ///< with their times
+  /// Nudges and strokes of the piston that the entry made, without times; undo removes them from
+  /// the run.
+  std::vector<Change> acts = {};
+  std::vector<Change> undone_acts = {};  ///< with their times
 };
 
 /// The simulation in the window: its scene, its view and the undo history. It sends commands to the
@@ -122,6 +124,11 @@ class Session {
   void set(const std::vector<Override>& settings, const VecX& shift = {});
   /// Nudges particles of the running or halted gas. An impossible nudge becomes a message.
   void nudge(const Nudge& nudge);
+  /// Moves the piston, the right wall, to a position on the x axis in a duration, > 0, after its
+  /// strokes that have begun.
+  void move_piston(double position, double duration);
+  /// Whether the newest frame follows from all commands so far.
+  bool is_answered() const { return frame().handled == sent_; }
   /// Adds an entry to the undo history, and clears the redo history.
   void remember(Edit edit);
   /// Reverts the last entry of the undo history.
@@ -175,7 +182,7 @@ class Session {
   void note_fork();
   bool must_wait(const std::vector<Edit>& edits);
   void forget_missing(std::vector<Edit>& edits) const;
-  void exchange_nudges(Edit& edit, bool again);
+  void exchange_acts(Edit& edit, bool again);
   void refit(const VecX& shift);
   void send_exchange();
   double present() const;

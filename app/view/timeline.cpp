@@ -88,11 +88,17 @@ std::string text_of(const Nudge& nudge) {
   return text;
 }
 
+// Whether a change needs time.
+bool lasts(const Change& change) {
+  return change.ramp || change.piston;
+}
+
 std::string text_of(const Change& change) {
-  std::string text = change.ramp ? fmt::format("t = {:.6g} to {:.6g}", change.time, change.until)
-                                 : fmt::format("t = {:.6g}", change.time);
+  std::string text = lasts(change) ? fmt::format("t = {:.6g} to {:.6g}", change.time, change.until)
+                                   : fmt::format("t = {:.6g}", change.time);
   for (const Override& law : change.set) text += fmt::format("\n{} = {}", law.key, law.value);
   if (change.nudge) text += "\n" + text_of(*change.nudge);
+  if (change.piston) text += fmt::format("\nPiston to x = {:.6g}", *change.piston);
   return text;
 }
 
@@ -119,7 +125,7 @@ std::string marks_near(const Frame& frame, const TimeScale& scale, float place, 
 void draw_mark(ImDrawList& list, const TimeScale& scale, const Change& change, float y,
                float size) {
   const float x = scale.place(change.time);
-  if (change.ramp) {
+  if (lasts(change)) {
     list.AddLine(ImVec2(x, y - size), ImVec2(scale.place(change.until), y - size), packed(kOrange),
                  0.25f * size);
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/view/style.h"
 #include "render/layers/fonts.h"
@@ -35,6 +36,13 @@ ImVec2 operator*(float factor, ImVec2 a) {
 
 float dot(ImVec2 a, ImVec2 b) {
   return a.x * b.x + a.y * b.y;
+}
+
+// The extents of the box, along x up to the piston.
+VecX room_of(const Snapshot& gas) {
+  VecX room = gas.box;
+  room[0] -= gas.piston_travel;
+  return room;
 }
 
 // An edge of a face: its ends in the world, and the sides that meet there; one of a box of disks.
@@ -79,12 +87,13 @@ std::optional<WallGrip::Handle> handle_of(const Edge& edge, const WindowMap& map
                                           const Snapshot& gas) {
   constexpr float kLeastOutward = 0.2f;  // of the length of a diameter on the viewport
   const Eye& eye = map.eye();
+  const VecX room = room_of(gas);
   if (edge.sides.size() == 2 &&
-      faces_viewer(eye, gas.box, edge.sides[0]) == faces_viewer(eye, gas.box, edge.sides[1])) {
+      faces_viewer(eye, room, edge.sides[0]) == faces_viewer(eye, room, edge.sides[1])) {
     return std::nullopt;
   }
   const auto at = [&](const VecX& world) { return map.place(world); };
-  const auto a = at(edge.ends[0]), b = at(edge.ends[1]), middle = at(0.5 * gas.box);
+  const auto a = at(edge.ends[0]), b = at(edge.ends[1]), middle = at(0.5 * room);
   if (!a || !b || !middle) return std::nullopt;
   const ImVec2 along = *b - *a;
   const float length = std::sqrt(dot(along, along));
@@ -96,7 +105,7 @@ std::optional<WallGrip::Handle> handle_of(const Edge& edge, const WindowMap& map
   float most = kLeastOutward * map.units();
   for (const Side side : edge.sides) {
     if (!gas.walls[side]) continue;
-    VecX half = VecX::Zero(gas.box.size());
+    VecX half = VecX::Zero(room.size());
     half[axis_of(side)] = 0.5;
     const VecX centre = 0.5 * (edge.ends[0] + edge.ends[1]);
     const auto low = at(centre - half), high = at(centre + half);
@@ -148,7 +157,7 @@ Area WallGrip::Handle::bounds() const {
 
 std::vector<WallGrip::Handle> WallGrip::handles(const WindowMap& map, const Frame& frame) {
   std::vector<Handle> handles;
-  for (const Edge& edge : edges_of(frame.snapshot.box)) {
+  for (const Edge& edge : edges_of(room_of(frame.snapshot))) {
     if (auto handle = handle_of(edge, map, frame.snapshot)) {
       handles.push_back(*handle);
     }
@@ -160,17 +169,18 @@ std::optional<WallGrip::Resized> WallGrip::use(const WindowMap& map, const Frame
                                                bool over) {
   constexpr double kShortest = 4.0;
   constexpr float kClick = 3.0f;  // a shorter motion of the mouse is a click, window units
-  const VecX& box = frame.snapshot.box;
+  const VecX room = room_of(frame.snapshot);
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  if (grip_ && axis_of(grip_->side) >= box.size()) held_ = false;  // the gas became another one
+  if (grip_ && axis_of(grip_->side) >= room.size()) held_ = false;  // the gas became another one
   if (!held_) {
     grip_.reset();
     const std::vector<Handle> near = over ? handles(map, frame) : std::vector<Handle>();
     for (const Handle& handle : near) {
       if (is_over(handle, mouse)) grip_ = handle;
     }
-    if (grip_) length_ = box[axis_of(grip_->side)];
+    if (grip_) start_ = length_ = room[axis_of(grip_->side)];
     held_ = grip_ && ImGui::IsMouseClicked(0);
+    pushes_ = held_ && grip_->side == kRight && !ImGui::GetIO().KeyShift;
     moved_ = false;
     pressed_ = mouse;
   }
@@ -185,19 +195,29 @@ std::optional<WallGrip::Resized> WallGrip::use(const WindowMap& map, const Frame
   const bool low = is_low(grip_->side);
   if (moved_) {
     const double way = dot(moved, unit) / dot(unit, unit);
-    length_ = std::max(kShortest, 0.1 * std::round(10.0 * (box[axis] + (low ? -way : way))));
+    length_ = std::max(kShortest, 0.1 * std::round(10.0 * (start_ + (low ? -way : way))));
   }
   if (!ImGui::IsMouseReleased(0)) return std::nullopt;
   held_ = false;
-  if (box[axis] == length_) return std::nullopt;
-  Resized resized{box, VecX::Zero(box.size())};
+  if (std::exchange(pushes_, false) || start_ == length_) return std::nullopt;
+  Resized resized{room, VecX::Zero(room.size())};
   resized.box[axis] = length_;
-  if (low) resized.shift[axis] = length_ - box[axis];
+  if (low) resized.shift[axis] = length_ - start_;
   return resized;
 }
 
+std::optional<double> WallGrip::piston() const {
+  return pushes_ && moved_ ? std::optional(length_) : std::nullopt;
+}
+
+const char* WallGrip::help() const {
+  return grip_ && !held_ && grip_->side == kRight
+             ? "Drag: moves the wall, a piston, while the gas plays\nShift + drag: resizes the box"
+             : nullptr;
+}
+
 void WallGrip::mark(ImDrawList& list, const WindowMap& map, const Frame& frame) const {
-  const VecX& box = frame.snapshot.box;
+  const VecX box = room_of(frame.snapshot);
   if (!grip_ || axis_of(grip_->side) >= box.size()) return;
   const int axis = axis_of(grip_->side);
   std::vector<ImVec2> points;

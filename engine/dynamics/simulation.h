@@ -103,6 +103,10 @@ class Simulation {
   /// Displacement, velocity and acceleration of a wall at time(), from its rest position along its
   /// inward normal.
   WallState wall(int side) const { return boundary_.wall(side, base_time()); }
+  /// Displacement of the piston's rest position from the end of the box at time().
+  double piston_travel() const {
+    return boundary_.piston() ? boundary_.piston()->travel(time()) : 0.0;
+  }
   /// Deepest overlap of two particles, or of a particle and a wall, at time(), as a share of the
   /// diameter; 0: none. Checks all particles. Throws Interrupted.
   double deepest_overlap(const StopRequest& stop = {}) const;

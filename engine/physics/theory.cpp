@@ -17,6 +17,11 @@ double packing_fraction(int dimension, double density) {
   return particle_volume(dimension) * density;
 }
 
+double closest_packing(int dimension) {
+  return dimension == 2 ? 0.5 * std::numbers::pi * std::numbers::inv_sqrt3
+                        : std::numbers::pi / (3.0 * std::numbers::sqrt2);
+}
+
 double contact_correlation(double packing_fraction, int dimension) {
   const double empty = 1.0 - packing_fraction;
   if (dimension == 2) return (1.0 - 7.0 * packing_fraction / 16.0) / (empty * empty);

@@ -86,6 +86,10 @@ struct RoughGas {
 /// area, pi/6 times the number of spheres per volume.
 double packing_fraction(int dimension, double density);
 
+/// phi of the closest packing: pi/(2 sqrt 3) of disks on a triangular lattice, pi/(3 sqrt 2) of
+/// spheres on a face-centred cubic one.
+double closest_packing(int dimension);
+
 /// chi, pair correlation at contact: of hard disks (1 - 7 phi/16) / (1 - phi)^2 (theory 6.1)
 /// (Henderson 1975), of hard spheres (1 - phi/2) / (1 - phi)^3 (Carnahan & Starling 1969).
 double contact_correlation(double packing_fraction, int dimension = 2);

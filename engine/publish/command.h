@@ -47,10 +47,10 @@ struct Jump {
 /// Goes back to the last collision of particles before the present state, and halts just after it.
 /// Without one it goes to time 0.
 struct StepBack {};
-/// Moves a change of laws to another time, see WatchedRun::move_change(), and halts.
+/// Moves a change to another time, see WatchedRun::move_change(), and halts.
 struct MoveChange {
   std::size_t number = 0;  ///< index into Scene::changes
-  double time = 0.0;       ///< simulation time > 0; a ramp keeps its duration
+  double time = 0.0;       ///< simulation time > 0; a ramp or stroke keeps its duration
 };
 /// Gives the run other changes from a simulation time > 0 on, see WatchedRun::replace_changes(),
 /// and halts.
@@ -73,6 +73,12 @@ struct SetLaws {
 /// Nudges particles, like a change of laws. Each nudge counts, also of many at once.
 struct Nudge {
   clatter::Nudge nudge;
+};
+/// Moves the piston to a position on the x axis in a duration > 0, after its strokes that have
+/// begun. Each stroke counts, like a nudge.
+struct MovePiston {
+  double position = 0.0;
+  double duration = 0.0;  ///< simulation time
 };
 /// Shows the averages, flights and spins of this view from now on.
 struct Show {
@@ -99,8 +105,8 @@ struct CopyGas {};
 struct RemoveGas {
   std::size_t gas = 0;
 };
-/// Selects the gas that commands about one gas change from now on: laws, nudges, futures, picks and
-/// Open::scene. A number without a gas selects none other.
+/// Selects the gas that commands about one gas change from now on: laws, nudges, strokes, futures,
+/// picks and Open::scene. A number without a gas selects none other.
 struct SelectGas {
   std::size_t gas = 0;
 };
@@ -133,8 +139,8 @@ using Command =
     std::variant<command::Play, command::PlayBackwards, command::Step, command::StepCollision,
                  command::Jump, command::StepBack, command::ExchangeFutures, command::MoveChange,
                  command::ReplaceChanges, command::Loop, command::SetSpeed, command::SetLaws,
-                 command::Nudge, command::Show, command::ShowProfile, command::Listen,
-                 command::Pick, command::CopyGas, command::RemoveGas, command::SelectGas,
-                 command::Open, command::CancelOpen>;
+                 command::Nudge, command::MovePiston, command::Show, command::ShowProfile,
+                 command::Listen, command::Pick, command::CopyGas, command::RemoveGas,
+                 command::SelectGas, command::Open, command::CancelOpen>;
 
 }  // namespace clatter

@@ -106,6 +106,10 @@ void GasesInStep::nudge(const Nudge& nudge, double delay) {
   lead([&] { selected().nudge(nudge, delay); });
 }
 
+void GasesInStep::move_piston(double position, double duration, double delay) {
+  lead([&] { selected().move_piston(position, duration, delay); });
+}
+
 // The selected run is on its way to a time. The others begin their ways.
 double GasesInStep::others_go_back(double time) {
   for (std::size_t k = 0; k < gases_.size(); ++k) {

@@ -13,6 +13,7 @@ Snapshot snapshot_of(const Simulation<D>& simulation) {
     snapshot.walls[side] = simulation.model().walls[side];
     snapshot.wall_displacement[side] = simulation.wall(side).displacement;
   }
+  snapshot.piston_travel = simulation.piston_travel();
   snapshot.positions = as_columns(state.positions);
   snapshot.velocities = as_columns(state.velocities);
   if (simulation.model().spins) snapshot.spins = as_columns(state.spins);

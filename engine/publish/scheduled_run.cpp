@@ -8,6 +8,7 @@
 #include "engine/error.h"
 #include "engine/initial/start_state.h"
 #include "engine/publish/publish.h"
+#include "engine/scene/piston.h"
 
 namespace clatter {
 
@@ -109,6 +110,33 @@ void ScheduledRun<D>::nudge(const Nudge& nudge, double delay) {
   check_nudge(nudge, laws());
   halt_within(delay);
   make({.time = simulation_->time(), .nudge = nudge});
+}
+
+// A stroke that begins later is only added to the changes to come.
+template <int D>
+void ScheduledRun<D>::move_piston(double position, double duration, double delay) {
+  const auto free_from = [this] {
+    return piston_plan(schedule_.changes(), simulation_->time(), 0.0).time;
+  };
+  const auto checked = [&](double time) {
+    Scene scene = schedule_.scene();
+    scene.changes.push_back({.time = time, .piston = position, .until = time + duration});
+    check_pistons(scene);
+    return scene.changes.back();
+  };
+  if (free_from() <= simulation_->time()) {
+    checked(simulation_->time());
+    halt_within(delay);
+  } else {
+    settle();
+  }
+  const double start = free_from();
+  const Change stroke = checked(start);
+  if (start > simulation_->time()) {
+    schedule_.add(stroke);
+  } else {
+    make(stroke);
+  }
 }
 
 // Adds a change at the present time to those of the scene. A run of the scene up to this time also

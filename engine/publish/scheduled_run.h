@@ -71,6 +71,11 @@ class ScheduledRun {
   /// UserError or PhysicalStop if the nudge is impossible; nothing then changes.
   void nudge(const Nudge& nudge, double delay = 0.0);
 
+  /// Moves the piston to a position in a duration, > 0, and adds the stroke to the scene's changes.
+  /// The stroke begins at the end of those that are on their way, or within `delay`. Throws
+  /// UserError if it is impossible; nothing then changes.
+  void move_piston(double position, double duration, double delay = 0.0);
+
   /// Adds to later snapshots the averages, flights and angles that the view needs. Averages
   /// restart at each change of laws, and continue during a ramp. `exposure` >= 0 is the exposure
   /// time of a picture, in simulation time.

@@ -49,6 +49,7 @@ struct Snapshot {
   double diameter = 1.0;                      ///< of every particle
   std::array<std::optional<Wall>, 6> walls;   ///< indexed by Side; a pair absent: periodic
   std::array<double, 6> wall_displacement{};  ///< of each wall into the box at this time
+  double piston_travel = 0.0;                 ///< of the right wall's rest position into the box
   Vectors positions;           ///< [D][N] centres, wrapped into the box, in original order
   Vectors velocities;          ///< [D][N]
   Vectors spins;               ///< [1][N], of spheres [3][N] angular velocities; empty: no spins

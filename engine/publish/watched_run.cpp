@@ -15,6 +15,7 @@
 #include "engine/publish/moving_sum.h"
 #include "engine/publish/run_record.h"
 #include "engine/publish/scheduled_run.h"
+#include "engine/scene/piston.h"
 
 namespace clatter {
 
@@ -46,6 +47,7 @@ class RunOf : public WatchedRun {
     branch([&] { run_.change(laws, delay); });
   }
   void nudge(const Nudge& nudge, double delay) override;
+  void move_piston(double position, double duration, double delay) override;
   double replace_changes(std::vector<Change> changes, double from) override;
   double head() const override { return std::max(head_, time()); }
   double move_change(std::size_t number, double time) override;
@@ -116,6 +118,7 @@ class RunOf : public WatchedRun {
   void record(bool stopped = false);
   void save_head();
   void return_to(const SavedState<D>& saved, const std::vector<Change>& changes);
+  double leave_start(double delay);
   Future end_future(double from);
   Future fork();
   void branch(const std::function<void()>& change);
@@ -405,14 +408,25 @@ void RunOf<D>::branch(const std::function<void()>& change) {
   record();
 }
 
-// The record keeps no state before a change at time 0, and such a nudge could not be removed.
+// The record keeps no state before a change at time 0, and such a nudge or stroke could not be
+// removed. Runs for a part of the delay at time 0, and returns the rest.
+template <int D>
+double RunOf<D>::leave_start(double delay) {
+  if (time() > 0.0) return delay;
+  run_until(0.5 * delay, kNoLimit, kNoLimit, {});
+  return 0.5 * delay;
+}
+
 template <int D>
 void RunOf<D>::nudge(const Nudge& nudge, double delay) {
-  if (time() == 0.0) {
-    delay *= 0.5;
-    run_until(delay, kNoLimit, kNoLimit, {});
-  }
+  delay = leave_start(delay);
   branch([&] { run_.nudge(nudge, delay); });
+}
+
+template <int D>
+void RunOf<D>::move_piston(double position, double duration, double delay) {
+  delay = leave_start(delay);
+  branch([&] { run_.move_piston(position, duration, delay); });
 }
 
 // Begins another future without the user's later changes, and returns the old one.
@@ -437,6 +451,9 @@ double RunOf<D>::move_change(std::size_t number, double time) {
   const double from = std::min(moved.time, time);
   moved.until += time - moved.time;
   moved.time = time;
+  Scene scene = run_.laws();
+  scene.changes = changes;
+  check_pistons(scene);
   return replace_changes(std::move(changes), from);
 }
 

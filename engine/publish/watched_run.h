@@ -57,6 +57,9 @@ class WatchedRun {
   /// As ScheduledRun::nudge, and in the past as change(). The nudge is after time 0 if there is a
   /// delay.
   virtual void nudge(const Nudge& nudge, double delay) = 0;
+  /// As ScheduledRun::move_piston, and in the past as change(). The stroke is after time 0 if there
+  /// is a delay.
+  virtual void move_piston(double position, double duration, double delay) = 0;
   /// Replaces all changes of the run. `from` > 0 is the simulation time of the first difference.
   /// Another future begins there, and the old one is kept, as by change(). Goes to a state from
   /// which run_until() soon reaches the returned time, at which this future begins. Throws
@@ -67,8 +70,8 @@ class WatchedRun {
   /// present time, or that of the change if it is earlier. Throws UserError if there is no other
   /// future.
   virtual double exchange_futures() = 0;
-  /// Moves a change of laws to another simulation time > 0, as by replace_changes(). Throws
-  /// UserError if there is no such change after time 0.
+  /// Moves a change to another simulation time > 0, as by replace_changes(). Throws UserError if
+  /// there is no such change after time 0, or if strokes of the piston would overlap.
   virtual double move_change(std::size_t number, double time) = 0;
   /// Latest simulation time that the run has reached.
   virtual double head() const = 0;

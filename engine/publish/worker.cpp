@@ -236,6 +236,9 @@ class EngineWork {
   void obey(const command::Nudge& asked) {
     if (gases_) gases_->nudge(asked.nudge, delay());
   }
+  void obey(const command::MovePiston& asked) {
+    if (gases_) gases_->move_piston(asked.position, asked.duration, delay());
+  }
   void obey(const command::Show& asked) {
     if (gases_) gases_->show(asked.view);
   }

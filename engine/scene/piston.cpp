@@ -20,7 +20,9 @@ static std::vector<std::size_t> strokes_of(const std::vector<Change>& changes) {
   for (std::size_t number = 0; number < changes.size(); ++number) {
     if (changes[number].piston) strokes.push_back(number);
   }
-  std::ranges::stable_sort(strokes, {}, [&](std::size_t number) { return changes[number].time; });
+  std::stable_sort(strokes.begin(), strokes.end(), [&](std::size_t a, std::size_t b) {
+    return changes[a].time < changes[b].time;
+  });
   return strokes;
 }
 
@@ -59,6 +61,15 @@ void check_pistons(const Scene& scene,
     end = change.until;
     position = *change.piston;
   }
+}
+
+PistonPlan piston_plan(const std::vector<Change>& changes, double time, double position) {
+  PistonPlan plan{time, position};
+  for (const std::size_t number : strokes_of(changes)) {
+    const Change& stroke = changes[number];
+    if (stroke.time <= plan.time && plan.time < stroke.until) plan = {stroke.until, *stroke.piston};
+  }
+  return plan;
 }
 
 double compressed_fraction(const Scene& scene) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <string_view>
+#include <vector>
 
 #include "engine/error.h"
 #include "engine/scene/scene.h"
@@ -19,6 +20,16 @@ void check_pistons(
     const Scene& scene,
     const std::function<Place(std::size_t change, std::string_view key)>& place_of =
         [](auto, auto) { return Place(); });
+
+/// Time from which the piston may begin another stroke, and its position there.
+struct PistonPlan {
+  double time = 0.0;
+  double position = 0.0;
+};
+
+/// The end of the strokes that follow each other from `time` on. Without a stroke then, it is at
+/// `time` and `position`.
+PistonPlan piston_plan(const std::vector<Change>& changes, double time, double position);
 
 /// Packing fraction with the piston at its innermost position among the scene's changes; that of
 /// the box without a stroke.

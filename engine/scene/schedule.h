@@ -27,6 +27,8 @@ class Schedule {
   const Scene& laws() const { return laws_; }
   /// The scene with the current laws and all its changes.
   Scene scene() const;
+  /// All changes of the scene.
+  const std::vector<Change>& changes() const { return *changes_; }
   /// Simulation time of the next change; infinite: never.
   double next() const;
   /// The nudge of the next change, which belongs after its change of laws; nullptr: none.

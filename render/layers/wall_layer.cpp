@@ -121,7 +121,8 @@ void WallLayer::draw(const Snapshot& snapshot, const Projection& projection,
   gl_->BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
   for (Side side : {kLeft, kRight, kBottom, kTop}) {
     const auto& wall = snapshot.walls[side];
-    if (wall && wall->moves()) draw_place(side, snapshot, projection, colours);
+    if (wall && (wall->moves() || snapshot.wall_displacement[side] > 0.0))
+      draw_place(side, snapshot, projection, colours);
   }
   for (Side side : {kLeft, kRight, kBottom, kTop}) draw_side(side, snapshot, projection, colours);
 }

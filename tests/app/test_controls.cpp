@@ -97,6 +97,13 @@ TEST_CASE("Window: a gas with some disks removed plays on, and can be saved") {
   check_saved_scene(driver);
 }
 
+// Drags a wall with Shift, without which the right wall is a piston.
+static void pull_with_shift(const GuiDriver& driver, const char* wall, int right, int down) {
+  driver.tool("keydown shift");
+  driver.pull(wall, right, down);
+  driver.tool("keyup shift");
+}
+
 TEST_CASE("Window: a wall that is dragged makes another box for the same disks") {
   const GuiDriver driver("--set walls.bottom.kind=static --set walls.top.kind=static");
   struct Case {
@@ -112,7 +119,7 @@ TEST_CASE("Window: a wall that is dragged makes another box for the same disks")
     const json before = driver.wait_for("status");
     const std::size_t told = driver.told();
     const auto opened = [&](const json& status) { return status["run"] > before["run"]; };
-    driver.pull(wall, right, down);
+    pull_with_shift(driver, wall, right, down);
     const json wider = driver.wait_for("status", told, opened);
     CHECK(wider["particles"] == before["particles"]);
     const double grown = wider["box"][axis].get<double>() - before["box"][axis].get<double>();
@@ -142,7 +149,7 @@ TEST_CASE("Window: a click on a wall changes nothing, and a dragged wall moves w
   const double pixels = left[3] / 25.0;  // per diameter
   driver.click("wall.right");
   driver.click("wall.left");
-  driver.pull("wall.right", 30, 0);
+  pull_with_shift(driver, "wall.right", 30, 0);
   const json wider = driver.wait_for("status", 0, [](const json& status) {
     return status["run"] > 1 && status["box"][0] != 20.0;
   });

@@ -236,6 +236,57 @@ TEST_CASE("Mouse tools: a narrow window has them in the sheet of the gas") {
   CHECK(press(driver)["scale"] == 1.1);
 }
 
+TEST_CASE("Mouse tools: the dragged right wall is a piston, and undo takes its strokes back") {
+  const GuiDriver driver("--set view.speed=2");
+  driver.wait_for("status", 0, [](const json& status) { return status["time"] > 1.0; });
+  const double right = driver.place("wall.right")[0];
+  driver.point_at("wall.right");
+  driver.tool("mousedown 1 mousemove_relative -- -150 0");
+  driver.wait_for("piston", 0, [&](const json&) { return driver.events("piston").size() >= 5; });
+  driver.tool("mouseup 1");
+  std::size_t told = driver.told();
+  driver.wait_for("status", told);
+  const json head = halt(driver);
+  CHECK(head["run"] == 1);
+  CHECK(head["box"][0] == 20.0);
+  const std::size_t count = driver.events("piston").size();
+  CHECK(head["changes"] == count);
+  double before = 20.0;
+  for (const json& stroke : driver.events("piston")) {
+    CHECK(stroke["position"] < before);
+    before = stroke["position"];
+  }
+  // The handle follows the wall.
+  CHECK(driver.place("wall.right")[0] < right - 20.0);
+  check_saved_run(driver, head);
+
+  told = driver.told();
+  driver.key("Home");
+  driver.wait_for("status", told, halted);
+  told = driver.told();
+  driver.key("End");
+  CHECK(driver.wait_for("status", told, halted)["hash"] == head["hash"]);
+  told = driver.told();
+  driver.key("ctrl+z");
+  const json undone = driver.wait_for(
+      "status", told, [](const json& status) { return halted(status) && status["changes"] == 0; });
+  CHECK(undone["time"] < head["time"]);
+  CHECK(measured(driver, "vibrated", undone)["state_hash"] == undone["hash"]);
+  told = driver.told();
+  driver.key("ctrl+y");
+  driver.wait_for("status", told, [&](const json& status) { return status["changes"] == count; });
+}
+
+TEST_CASE("Mouse tools: the piston of a halted gas stays, with a message") {
+  const GuiDriver driver("--until 1");
+  driver.wait_for("status", 0, halted);
+  const std::size_t told = driver.told();
+  driver.pull("wall.right", -60, 0);
+  CHECK(driver.wait_for("message", told)["text"].get<std::string>().find("while the gas plays") !=
+        std::string::npos);
+  CHECK(driver.events("piston").empty());
+}
+
 TEST_SUITE_END();
 
 }  // namespace clatter

@@ -52,6 +52,7 @@ TEST_CASE("Panels: the list of keys has each key beside its action") {
                "Scroll F zoom about the cursor; fit the box",
                "Click a particle its state; double-click follows it",
                "Drag a wall resize the box; press just outside of it",
+               "Drag the right wall a piston, while the gas plays; with Shift: resize",
                "Drop a file open a scene, or the scene in a picture"});
 }
 

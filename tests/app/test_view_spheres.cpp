@@ -328,7 +328,9 @@ TEST_CASE("Window: a wall of a box of spheres moves with the mouse, and undo mov
       "widget", 0, [](const json& event) { return event["name"] == "wall.right"; })["place"];
   const double pixels = right[3].get<double>() / 8.0;  // per diameter
   std::size_t told = driver.told();
+  driver.tool("keydown shift");
   driver.pull("wall.right", 50, 0);
+  driver.tool("keyup shift");
   json now = driver.wait_for("status", told, opened_after(before));
   CHECK(std::fabs(now["box"][0].get<double>() - 9.0 - 50.0 / pixels) <= 0.06);
   CHECK(now["box"][1] == 8.0);

@@ -414,3 +414,71 @@ TEST_CASE("Piston: a change of dimension removes strokes, and names the key") {
   CHECK(changed.scene.changes.empty());
   CHECK(std::ranges::find(changed.removed, "change") != changed.removed.end());
 }
+
+TEST_CASE(
+    "Piston: by hand its strokes follow each other, and a run of the scene has the same bits") {
+  const std::string gas =
+      "box.size = [12, 10]\nparticles = { count = 40, restitution = 0.9 }\n"
+      "walls.left = { kind = 'thermal', temperature = 1.0 }\nwalls.right.kind = 'static'\n";
+  const Scene scene = parse_scene(gas, "");
+  for (const double at : {0.0, 1.7}) {
+    CAPTURE(at);
+    const auto run = watched_run(scene, kPistonSeed);
+    run->run_until(at, kNoLimit, kNoLimit);
+    run->move_piston(11.5, 0.25, 0.01);
+    run->run_until(at + 0.1, kNoLimit, kNoLimit);
+    run->move_piston(11.25, 0.25, 0.01);  // follows the first
+    run->run_until(at + 2.0, kNoLimit, kNoLimit);
+    run->move_piston(11.75, 0.5, 0.01);
+    Frame frame;
+    run->tell(frame, true);
+    const std::vector<Change>& strokes = frame.scene->changes;
+    REQUIRE(strokes.size() == 3);
+    CHECK(strokes[0].time > 0.0);
+    CHECK(strokes[0].time >= at);
+    CHECK(strokes[0].time <= at + 0.01);
+    CHECK(strokes[1].time == strokes[0].until);
+    CHECK(strokes[2].time >= at + 2.0);
+    CHECK(strokes[2].time <= at + 2.01);
+    const auto check_at = [&](double time) {
+      CAPTURE(time);
+      while (run->time() < time) run->run_until(time, kNoLimit, kNoLimit);
+      run->tell(frame, true);
+      Scene saved = *frame.started;
+      saved.changes = frame.scene->changes;
+      ScheduledRun<2> alone(parse_scene(scene_to_toml(saved), "saved.toml"), kPistonSeed);
+      alone.run_until(run->time());
+      CHECK(alone.simulation().state_hash() == *frame.state_hash);
+      CHECK(frame.snapshot.piston_travel == alone.simulation().wall(kRight).displacement);
+    };
+    check_at(run->time());
+    check_at(4.0);
+    CHECK(frame.snapshot.piston_travel == 0.25);
+    for (const double time : {at + 0.2, at + 0.3, at + 1.0}) {
+      run->go_back(time);
+      check_at(time);
+    }
+    // Without the last two strokes.
+    const std::vector<Change> first(strokes.begin(), strokes.begin() + 1);
+    run->replace_changes(first, strokes[1].time);
+    check_at(5.0);
+    CHECK(frame.snapshot.piston_travel == 0.5);
+  }
+}
+
+TEST_CASE("Piston: by hand and in a moved change strokes do not overlap") {
+  const auto run = watched_run(compressed(), kPistonSeed);
+  run->run_until(0.95, kNoLimit, kNoLimit);
+  CHECK_THROWS_AS(run->move_piston(11.0, 0.1, 0.0), UserError);
+  CHECK_THROWS_AS(run->move_piston(13.0, 0.01, 0.0), UserError);
+  Frame frame;
+  run->tell(frame, true);
+  CHECK(frame.scene->changes.size() == 3);
+  run->run_until(6.0, kNoLimit, kNoLimit);
+  CHECK_THROWS_AS(run->move_change(2, 2.0), UserError);
+  CHECK(run->move_change(2, 5.5) == doctest::Approx(4.25));
+  run->run_until(6.5, kNoLimit, kNoLimit);
+  run->tell(frame, true);
+  CHECK(frame.scene->changes[2].until == doctest::Approx(6.25));
+  CHECK(frame.snapshot.piston_travel == 4.5);
+}

@@ -85,6 +85,26 @@ TEST_CASE("Wall layer: a moving wall is drawn at its position, and covers the pi
   }
 }
 
+TEST_CASE("Wall layer: a piston of any kind is drawn at its position, and covers the field behind") {
+  const auto context = open_context(Backend::Osmesa);
+  for (WallKind kind : {WallKind::Static, WallKind::Driven, WallKind::Thermal}) {
+    Snapshot snapshot;
+    snapshot.box = Vec2(10.0, 10.0);
+    snapshot.walls[kLeft] = snapshot.walls[kRight] = wall_of(kind);
+    snapshot.wall_displacement[kRight] = 4.0;
+    const Canvas canvas = blank_canvas(context->gl(), kWallSize);
+    context->gl().ClearColor(1.0f, 1.0f, 1.0f, 1.0f);
+    context->gl().Clear(GL_COLOR_BUFFER_BIT);
+    WallLayer(context->gl()).draw(snapshot, {{{5.0, 5.0}, 20.0}, kWallSize}, {kDarkTheme});
+    const Image image = canvas.read();
+    const Colour white = {255, 255, 255};
+    for (int y : {60, 100, 140}) {
+      for (int x = 52; x < 110; ++x) REQUIRE(pixel(image, x, y) == white);
+      for (int x = 110; x < 149; ++x) CHECK(difference(pixel(image, x, y), white) > 50);
+    }
+  }
+}
+
 TEST_CASE("Wall layer: a moving wall looks the same wherever it is") {
   const auto context = open_context(Backend::Osmesa);
   const auto at = [&](double displacement) {
