@@ -163,7 +163,7 @@ inline constexpr auto kViewKeys = key_table(
       "Of disks: repeats particles, trails and heatmap beyond periodic edges, at half their "
       "opacity. Each side has at most 8 copies of the box, and at least 1. Between these limits "
       "all boxes together have at most 4 million disks."},
-     {"overlay", "", "Title, captions, time, colour bar and scale bar."},
+     {"overlay", "", "Texts and scales: title, captions, figures, walls, colour bars and scale bar."},
      {"overlay_hides", "",
       "Parts that the overlay does not have. caption is that of the scene, captions are timed."},
      {"plots", "",
