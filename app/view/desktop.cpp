@@ -24,6 +24,13 @@ Desktop::Desktop(GLFWwindow* window, WindowInput& input) : window_(window) {
         ->press(
             {key, letter_of(key), (held & GLFW_MOD_SHIFT) != 0, (held & GLFW_MOD_CONTROL) != 0});
   });
+  glfwSetCursorPosCallback(window, [](GLFWwindow* of, double x, double y) {
+    static_cast<WindowInput*>(glfwGetWindowUserPointer(of))->move_mouse(x, y);
+  });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* of, int, int action, int) {
+    if (action != GLFW_PRESS) return;
+    static_cast<WindowInput*>(glfwGetWindowUserPointer(of))->press_mouse();
+  });
   glfwSetDropCallback(window, [](GLFWwindow* of, int count, const char** paths) {
     auto* to = static_cast<WindowInput*>(glfwGetWindowUserPointer(of));
     for (int k = 0; k < count; ++k) to->drop(paths[k]);

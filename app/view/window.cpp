@@ -119,6 +119,9 @@ static void show(const WindowOptions& options) {
       }
       const auto began = RealClock::now();
       ImGui_ImplGlfw_NewFrame();
+      if (const auto press = input.take_mouse_press()) {
+        ImGui::GetIO().MousePos = ImVec2((*press)[0], (*press)[1]);
+      }
       gui.draw();
       glfwSwapBuffers(window);
       guard.check();

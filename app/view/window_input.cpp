@@ -12,6 +12,10 @@ bool repeats(int key) {
          key == GLFW_KEY_RIGHT;
 }
 
+std::optional<std::array<float, 2>> WindowInput::take_mouse_press() {
+  return std::exchange(mouse_press_, std::nullopt);
+}
+
 std::vector<KeyPress> WindowInput::take_presses() {
   return std::exchange(presses_, {});
 }

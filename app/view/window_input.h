@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,14 +18,23 @@ struct KeyPress {
 /// Whether a key presses again while it is held down: the keys that step in time.
 bool repeats(int key);
 
-/// Key presses and dropped files of a window. Dear ImGui samples the state of the keys once per
-/// frame, and so misses a key that was released before.
+/// Key presses, presses of the mouse and dropped files of a window. Dear ImGui samples keys and
+/// mouse once per frame, and so misses a key that was released before, and the place of a press
+/// from which the mouse has moved on.
 class WindowInput {
  public:
   /// Adds a key press.
   void press(const KeyPress& press) { presses_.push_back(press); }
   /// Adds a dropped file.
   void drop(const std::string& path) { dropped_.push_back(path); }
+  /// Notes the place of the mouse, window units from the upper left corner.
+  void move_mouse(double x, double y) { mouse_ = {static_cast<float>(x), static_cast<float>(y)}; }
+  /// Notes that a mouse button is pressed at that place.
+  void press_mouse() {
+    if (!mouse_press_) mouse_press_ = mouse_;
+  }
+  /// The place of the first press of the mouse since the last call; absent: none.
+  std::optional<std::array<float, 2>> take_mouse_press();
   /// The keys pressed since the last call of take_presses.
   const std::vector<KeyPress>& presses() const { return presses_; }
   /// The keys pressed since the last call, in order.
@@ -34,6 +45,8 @@ class WindowInput {
  private:
   std::vector<KeyPress> presses_;
   std::vector<std::string> dropped_;
+  std::optional<std::array<float, 2>> mouse_;  // absent: not yet over the window
+  std::optional<std::array<float, 2>> mouse_press_;
 };
 
 }  // namespace clatter

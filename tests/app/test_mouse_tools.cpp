@@ -241,7 +241,7 @@ TEST_CASE("Mouse tools: the dragged right wall is a piston, and undo takes its s
   driver.wait_for("status", 0, [](const json& status) { return status["time"] > 1.0; });
   const double right = driver.place("wall.right")[0];
   driver.point_at("wall.right");
-  driver.tool("mousedown 1 sleep 0.5 mousemove_relative -- -150 0");
+  driver.tool("mousedown 1 mousemove_relative -- -150 0");
   driver.wait_for("piston", 0, [&](const json&) { return driver.events("piston").size() >= 5; });
   driver.tool("mouseup 1");
   std::size_t told = driver.told();
