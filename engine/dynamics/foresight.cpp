@@ -25,6 +25,8 @@ bool runs_in_tiles(int dimension, std::size_t particles, bool kicked, int thread
   return dimension == 2 && !kicked && threads > 1 && particles >= kLeast;
 }
 
+// Measured for N = 300,000 and phi = 0.46 with fields: two threads take longer than the whole. From
+// the processor time of the parts, four take about three quarters of its time.
 bool watched_runs_in_tiles(int threads) {
   return threads >= 4;
 }

@@ -46,8 +46,7 @@ class Simulation {
   /// once all is done. Throws PhysicalStop as the constructors do.
   bool prepare(const StopRequest& pause);
   /// Uses up to so many threads from now on, if runs_in_tiles() and, for a watched gas,
-  /// watched_runs_in_tiles(). The run has the same bits with any
-  /// number of threads.
+  /// watched_runs_in_tiles(). The run has the same bits with any number of threads.
   void use_threads(int threads);
   /// The same for a gas of any size, with these sizes of its tiles.
   void use_threads(int threads, const TileSizes& sizes);

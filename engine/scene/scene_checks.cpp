@@ -308,7 +308,7 @@ void check_change_tables(const Scene& scene, const toml::table& root, const std:
     const Change& change = scene.changes[number];
     const auto place = [&](const std::string& key) { return place_in(number, key); };
     if (change.set.empty() && !change.nudge && !change.piston) {
-      throw UserError(place(""), "the change has none of 'set', 'nudge' and 'piston'",
+      throw UserError(place(""), "a change needs 'set', 'nudge' or 'piston'",
                       "give new values of keys, a nudge, or a position of the piston");
     }
     if (!change.nudge) continue;

@@ -320,7 +320,6 @@ TEST_CASE("Piston: tiles change no bit, of disks and of spheres") {
       CHECK(one->simulation().state_hash() == two->simulation().state_hash());
     }
     REQUIRE(two->simulation().foresight());
-    CHECK(two->simulation().foresight());
     CHECK(two->simulation().foresight()->work().windows > 3);
     CHECK(two->simulation().deepest_overlap() < 1e-12);
   };
