@@ -28,7 +28,7 @@ void print_parts(const Scene& scene) {
                "  feature       bytes per particle  CPU time  in this scene\n",
                1e-6 * memory_of(scene));
   for (const FeatureCost& part : parts) {
-    const double share = part.bytes / std::max(1, scene.particles.count);
+    const double share = part.bytes / std::max(1.0, static_cast<double>(final_count(scene)));
     const bool off = part.extent == "no";
     std::fprintf(stderr, "  %-12s  %18s  %8s  %s\n", part.name,
                  off ? "-" : fmt::format("{:.0f}", share).c_str(),
@@ -77,6 +77,9 @@ int check(const CommonOptions& options) {
   std::fprintf(stderr, "The scene is valid: %d %s, %s fraction %.4f", scene.particles.count,
                disks ? "disks" : "spheres", disks ? "area" : "volume", scene.packing_fraction());
   if (options.seed) std::fprintf(stderr, ", seed %s", std::to_string(*options.seed).c_str());
+  if (const auto added = final_count(scene) - scene.particles.count; added > 0) {
+    std::fprintf(stderr, "; its changes add %s", std::to_string(added).c_str());
+  }
   std::fputs(".\n", stderr);
   print_events(scene, options.until.value_or(scene.measure.burn_in + scene.measure.duration));
   print_piston(scene);

@@ -89,7 +89,7 @@ void PlotRecorder<D>::take_sample() {
 
 template <int D>
 PlottedGas PlotRecorder<D>::gas() {
-  if (!frame_.scene) frame_.scene = std::make_shared<const Scene>(run_.scene());
+  if (!frame_.scene) frame_.scene = std::make_shared<const Scene>(run_.present_scene());
   if (profile_) frame_.profile = profile_->profile();
   return {&history_, &frame_, ""};
 }

@@ -81,9 +81,9 @@ void require_replaceable(const std::filesystem::path& file, const char* flag) {
 // Throws if the selection of events names no particle or region of the scene.
 void require_selectable(const EventSelection& selection, const Scene& scene) {
   for (const std::uint32_t particle : selection.particles) {
-    if (particle < static_cast<std::uint32_t>(scene.particles.count)) continue;
+    if (particle < final_count(scene)) continue;
     throw UserError({"--events-of", 0, 0}, "there is no particle " + std::to_string(particle),
-                    particle_numbers(scene.particles.count));
+                    particle_numbers(static_cast<int>(final_count(scene))));
   }
   if (selection.region.empty()) return;
   const auto sides = static_cast<std::size_t>(2 * scene.dimension());
@@ -148,6 +148,11 @@ void prepare_outputs(const MeasureOptions& options, const Scene& scene,
   if (!options.save_state.empty()) require_writable_file(options.save_state, "--save-state");
   if (!options.trajectory.empty()) {
     trajectory_format(options.trajectory, "--trajectory");
+    if (final_count(scene) != scene.particles.count) {
+      throw UserError({"--trajectory", 0, 0},
+                      "all frames of a trajectory have the same particles, and a puff adds some",
+                      "remove --trajectory, or the [[change]] with the puff");
+    }
     require_writable_file(options.trajectory, "--trajectory");
   }
   if (!options.events.empty()) {

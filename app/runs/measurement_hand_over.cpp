@@ -22,11 +22,14 @@ template <int D>
 bool hand_over(std::optional<Measurement<D>>& measurement, const Simulation<D>& before,
                Simulation<D>& next, const Measure& measure, double end) {
   const bool same_inertia = before.model().inertia == next.model().inertia;
-  if (!averages_go_on(before.save(), same_inertia, next.model(), measure)) {
+  const bool same_particles = before.particles().size() == next.particles().size();
+  const bool go_on =
+      same_particles && averages_go_on(before.save(), same_inertia, next.model(), measure);
+  const std::string saved = go_on ? measurement->save() : "";
+  if (saved.empty()) {
     measurement.emplace(next, measure, end);
     return false;
   }
-  const std::string saved = measurement->save();
   measurement.emplace(next, measure, ArchiveReader(saved, "the measurement"));
   return true;
 }

@@ -46,8 +46,8 @@ std::optional<Resumed> resume(const CommonOptions& common, const CheckpointOptio
   Resumed resumed{file, read_checkpoint(file), {}};
   if (scene.particles.start.layout == Layout::File) {
     if (scene.particles.count == 0) {
-      scene.particles.count = static_cast<int>(std::visit(
-          [](const auto& saved) { return saved.flights.size(); }, resumed.checkpoint.saved));
+      scene.particles.count =
+          parse_scene(resumed.checkpoint.scene, file, {}, StartFile::Skip).particles.count;
     }
     scene.particles.start.temperature = resumed.checkpoint.start_temperature;
   }

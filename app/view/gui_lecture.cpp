@@ -280,7 +280,7 @@ float Gui::lecture_bar() {
 
 // Whether the bar has room for the mouse tools in its only line. Else they are in the settings.
 bool Gui::bar_has_tools() const {
-  constexpr float kWidth = 48.0f;  // of the bar with them, in text sizes
+  constexpr float kWidth = 52.0f;  // of the bar with them, in text sizes
   return ImGui::GetIO().DisplaySize.x > kWidth * ImGui::GetFontSize();
 }
 
@@ -351,7 +351,7 @@ void Gui::lecture_settings() {
   const bool plot = choose_lecture_plot(view.lecture);
   controls_.show(view, sliders || plot);
   if (bar_has_tools()) {
-    mouse_tools_.radius_slider(session_.scene(), controls_);
+    mouse_tools_.sliders(session_.scene(), controls_);
   } else if (mouse_tools_.panel(session_.scene(), controls_)) {
     lift_pen();
   }

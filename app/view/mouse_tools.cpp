@@ -35,6 +35,8 @@ Colour colour_of(Tool tool) {
     case Tool::Kick:
     case Tool::Throw:
       return accent_colour();
+    case Tool::Add:
+      return kGreen;
   }
   return {};
 }
@@ -95,10 +97,10 @@ bool MouseTools::panel(const Scene& scene, Controls& controls) {
   const float around = (room - text - (kCount - 1.0f) * gap) / kCount;
   const bool in_row = around > 0.4f * ImGui::GetFontSize();
   bool chosen = false;
-  int column = 0;
+  std::size_t column = 0;
   for (const ToolText& tool : kTools) {
     if (!controls.shows(tool.key)) continue;
-    if (column++ % (in_row ? 4 : 2) > 0) ImGui::SameLine();
+    if (column++ % (in_row ? kTools.size() : 2) > 0) ImGui::SameLine();
     const float width =
         in_row ? ImGui::CalcTextSize(tool.name).x + around : std::floor(0.5f * (room - gap));
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, ImGui::GetStyle().FramePadding.y));
@@ -108,11 +110,11 @@ bool MouseTools::panel(const Scene& scene, Controls& controls) {
     }
     ImGui::PopStyleVar();
   }
-  radius_slider(scene, controls);
+  sliders(scene, controls);
   return chosen;
 }
 
-void MouseTools::radius_slider(const Scene& scene, Controls& controls) {
+void MouseTools::sliders(const Scene& scene, Controls& controls) {
   if (!tool_ || !has_circle(*tool_)) return;
   double value = radius(scene);
   if (controls.number({.key = "tool.radius",
@@ -126,6 +128,16 @@ void MouseTools::radius_slider(const Scene& scene, Controls& controls) {
                       value, usual_radius(scene))) {
     radius_ = value;
   }
+  if (tool_ != Tool::Add) return;
+  controls.number({.key = "tool.count",
+                   .name = "Particles",
+                   .help = "Number that a click adds",
+                   .low = 1.0,
+                   .high = 200.0,
+                   .logarithmic = true,
+                   .format = "%.0f"},
+                  count_, MouseTools().count_);
+  count_ = std::round(count_);
 }
 
 double MouseTools::radius(const Scene& scene) const {
@@ -163,11 +175,12 @@ void MouseTools::use(Session& session, const WindowMap& map, bool over) {
     if (!target_ || !ImGui::IsMouseClicked(0)) return;
     press_ = Press{*tool_, frame.run, ImGui::GetIO().MousePos};
     pressed_ = true;
+    if (press_->tool == Tool::Add) add(session);
   }
   constexpr float kClick = 3.0f;  // a shorter motion of the mouse is a click, window units
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   press_->dragged |= std::hypot(mouse.x - press_->place.x, mouse.y - press_->place.y) >= kClick;
-  if (!has_arrow(press_->tool)) {
+  if (press_->tool == Tool::Heat || press_->tool == Tool::Cool) {
     target_ = target_at(session, map, press_->tool);
     scale(session);
   } else if (target_->particle) {
@@ -197,6 +210,18 @@ void MouseTools::scale(Session& session) {
                     .scale = press_->tool == Tool::Heat ? kFactor : 1.0 / kFactor};
   press_->acts.push_back({.nudge = nudge});
   session.nudge(nudge);
+}
+
+// Adds particles of the temperature of the gas, or of temperature 1 in a gas at rest.
+void MouseTools::add(Session& session) {
+  const double temperature = session.frame().snapshot.temperature;
+  const Puff puff{
+      .count = static_cast<int>(count_),
+      .centre = target_->place,
+      .radius = radius(session.scene()),
+      .temperature = temperature > 0.0 ? std::stod(fmt::format("{:.3g}", temperature)) : 1.0};
+  press_->acts.push_back({.puff = puff});
+  session.add(puff);
 }
 
 void MouseTools::release(Session& session, const WindowMap& map) {

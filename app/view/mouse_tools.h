@@ -13,7 +13,7 @@
 namespace clatter {
 
 /// The action of the left button on the gas.
-enum class Tool { Heat, Cool, Kick, Throw };
+enum class Tool { Heat, Cool, Kick, Throw, Add };
 
 /// Texts of a tool.
 struct ToolText {
@@ -24,8 +24,8 @@ struct ToolText {
   const char* hint;  ///< line on the picture before the first press
 };
 
-/// All tools, in the order of their buttons and of the keys 1 to 4.
-inline constexpr std::array<ToolText, 4> kTools = {{
+/// All tools, in the order of their buttons and of the keys 1 to 5.
+inline constexpr std::array<ToolText, 5> kTools = {{
     {Tool::Heat, "tool.heat", "Heat",
      "Speeds in a circle at the mouse grow by a tenth, every 0.1 s while the button is held (1)",
      "press and hold to heat  ·  Esc ends"},
@@ -42,18 +42,22 @@ inline constexpr std::array<ToolText, 4> kTools = {{
      "of "
      "playing (4)",
      "drag an arrow from a particle  ·  Esc ends"},
+    {Tool::Add, "tool.add", "Add",
+     "A click adds particles of the present temperature in a circle at the mouse (5)",
+     "click to add particles  ·  Esc ends"},
 }};
 
-/// Tools that act on the gas at the mouse. Each action is a nudge, which the run records as a
-/// [[change]]. Heat and Cool scale velocities in a circle, of spheres in a ball. Kick adds a
-/// velocity there, and Throw sets the velocity of one particle. A press is one undo entry.
+/// Tools that act on the gas at the mouse. Each action is a nudge or a puff, which the run records
+/// as a [[change]]. Heat and Cool scale velocities in a circle, of spheres in a ball. Kick adds a
+/// velocity there, and Throw sets the velocity of one particle. Add makes a puff of new particles.
+/// A press is one undo entry.
 class MouseTools {
  public:
-  /// Group with the buttons of the tools, and the radius of the circle. Returns true if a tool was
-  /// chosen.
+  /// Group with the buttons of the tools, and the sliders of the chosen one. Returns true if a tool
+  /// was chosen.
   bool panel(const Scene& scene, Controls& controls);
-  /// Slider for the radius of the circle; none if no tool with a circle is chosen.
-  void radius_slider(const Scene& scene, Controls& controls);
+  /// Sliders of the chosen tool: the radius of its circle, and the number of particles to add.
+  void sliders(const Scene& scene, Controls& controls);
   /// Chooses a tool, or ends the same one.
   void toggle(Tool tool);
   /// Ends the tool.
@@ -83,19 +87,21 @@ class MouseTools {
     ImVec2 place;       // of the mouse, window units
     bool dragged = false;
     std::optional<double> nudged = {};  // simulation time of the frame at the last nudge
-    std::vector<Change> acts = {};      // nudges so far
+    std::vector<Change> acts = {};      // so far
   };
 
   double radius(const Scene& scene) const;
   std::optional<Target> target_at(const Session& session, const WindowMap& map, Tool tool) const;
   void follow(const Snapshot& gas);
   void scale(Session& session);
+  void add(Session& session);
   void release(Session& session, const WindowMap& map);
   VecX velocity(const Frame& frame, const WindowMap& map) const;
   void draw_arrow(ImDrawList& list, const Frame& frame, const WindowMap& map, ImU32 ink) const;
 
   std::optional<Tool> tool_;
   std::optional<double> radius_;  // absent: as usual for the box
+  double count_ = 20.0;           // particles that a click adds
   bool pressed_ = false;          // since the tool was chosen
   std::optional<Target> target_;  // absent: the mouse is elsewhere
   std::optional<Press> press_;    // while the button is down

@@ -402,7 +402,7 @@ static nlohmann::json keys_of(const Nudge& nudge) {
 
 void Session::nudge(const Nudge& nudge) {
   try {
-    check_nudge(nudge, scene());
+    check_nudge(nudge, scene(), static_cast<std::int64_t>(frame().snapshot.count()));
   } catch (const UserError& error) {
     tell(error.problem() + "; " + error.advice());
     return;
@@ -411,6 +411,17 @@ void Session::nudge(const Nudge& nudge) {
   note_fork();
   log_.event("nudge", {{"nudge", keys_of(nudge)}, {"command", sent_ + 1}});
   send(command::Nudge{nudge});
+}
+
+void Session::add(const Puff& puff) {
+  unsaved_ = true;
+  note_fork();
+  log_.event("puff", {{"count", puff.count},
+                      {"centre", std::vector(puff.centre.begin(), puff.centre.end())},
+                      {"radius", puff.radius},
+                      {"temperature", puff.temperature},
+                      {"command", sent_ + 1}});
+  send(command::AddPuff{puff});
 }
 
 void Session::move_piston(double position, double duration) {
@@ -434,7 +445,8 @@ static std::vector<Change> take_acts(std::vector<Change>& changes,
   std::vector<Change> taken;
   for (auto act = acts.rbegin(); act != acts.rend(); ++act) {
     const auto is_it = [&](const Change& change) {
-      return change.nudge == act->nudge && change.piston == act->piston && change.set.empty();
+      return change.nudge == act->nudge && change.puff == act->puff &&
+             change.piston == act->piston && change.set.empty();
     };
     const auto after = std::find_if(changes.rbegin(), changes.rend(), is_it).base();
     if (after == changes.begin()) continue;

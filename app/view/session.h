@@ -29,8 +29,8 @@ struct Edit {
   std::vector<OpenedScene> scenes = {};
   /// Number of the change in the past whose two futures the entry exchanges; 0: none.
   std::uint64_t fork = 0;
-  /// Nudges and strokes of the piston that the entry made, without times; undo removes them from
-  /// the run.
+  /// Nudges, puffs and strokes of the piston that the entry made, without times; undo removes them
+  /// from the run.
   std::vector<Change> acts = {};
   std::vector<Change> undone_acts = {};  ///< with their times
 };
@@ -124,6 +124,9 @@ class Session {
   void set(const std::vector<Override>& settings, const VecX& shift = {});
   /// Nudges particles of the running or halted gas. An impossible nudge becomes a message.
   void nudge(const Nudge& nudge);
+  /// Adds the particles of a puff to the running or halted gas. An impossible puff becomes a
+  /// message.
+  void add(const Puff& puff);
   /// Moves the piston, the right wall, to a position on the x axis in a duration, > 0, after its
   /// strokes that have begun.
   void move_piston(double position, double duration);

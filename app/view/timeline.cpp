@@ -98,6 +98,10 @@ std::string text_of(const Change& change) {
                                    : fmt::format("t = {:.6g}", change.time);
   for (const Override& law : change.set) text += fmt::format("\n{} = {}", law.key, law.value);
   if (change.nudge) text += "\n" + text_of(*change.nudge);
+  if (change.puff) {
+    text += fmt::format("\n{} particles added within {:.4g} of {}", change.puff->count,
+                        change.puff->radius, text_of(change.puff->centre));
+  }
   if (change.piston) text += fmt::format("\nPiston to x = {:.6g}", *change.piston);
   return text;
 }

@@ -29,7 +29,7 @@ namespace clatter {
 /// Least number of physical events between two moves of the base.
 inline constexpr std::uint64_t kMinEventsPerBase = 64;
 
-/// The velocity of a particle after a nudge.
+/// The velocity of a particle after a nudge or puff.
 template <int D>
 struct NewVelocity {
   std::uint32_t particle = 0;
@@ -104,8 +104,8 @@ class EventLoop {
   /// The particles that a nudge changes, and their new velocities, in original order. Throws
   /// PhysicalStop if one is too fast.
   std::vector<NewVelocity<D>> velocities_after(const Nudge& nudge) const;
-  /// Sets velocities as the result of a nudge. Then the base must move.
-  void nudge(const std::vector<NewVelocity<D>>& velocities);
+  /// Sets velocities as the result of a nudge or puff, and counts it. Then the base must move.
+  void nudge(const std::vector<NewVelocity<D>>& velocities, std::uint64_t EventCounts::*count);
   /// Notes that the piston begins a stroke. Then the base must move.
   void begin_stroke();
   /// The speed of the fastest particle now.

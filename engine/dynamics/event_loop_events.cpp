@@ -277,7 +277,8 @@ std::vector<NewVelocity<D>> EventLoop<D>::velocities_after(const Nudge& nudge) c
 }
 
 template <int D>
-void EventLoop<D>::nudge(const std::vector<NewVelocity<D>>& velocities) {
+void EventLoop<D>::nudge(const std::vector<NewVelocity<D>>& velocities,
+                         std::uint64_t EventCounts::*count) {
   for (const NewVelocity<D>& next : velocities) {
     const auto [r, v] = motion_now(next.particle);
     const Kick<D> kick{now_, change_of(next.particle, r, v, {next.velocity - v, Spin<D>::Zero()}),
@@ -285,7 +286,7 @@ void EventLoop<D>::nudge(const std::vector<NewVelocity<D>>& velocities) {
     for (Observer<D>* observer : observers_) observer->on_kick(kick);
     renew_flight(next.particle, r, next.velocity);
   }
-  ++counts_.nudges;
+  ++(counts_.*count);
   if (watchdog_) watchdog_.emplace(gas_.particles.size(), now_);
 }
 
@@ -325,7 +326,7 @@ template void EventLoop<2>::kick();
 template void EventLoop<3>::kick();
 template std::vector<NewVelocity<2>> EventLoop<2>::velocities_after(const Nudge&) const;
 template std::vector<NewVelocity<3>> EventLoop<3>::velocities_after(const Nudge&) const;
-template void EventLoop<2>::nudge(const std::vector<NewVelocity<2>>&);
-template void EventLoop<3>::nudge(const std::vector<NewVelocity<3>>&);
+template void EventLoop<2>::nudge(const std::vector<NewVelocity<2>>&, std::uint64_t EventCounts::*);
+template void EventLoop<3>::nudge(const std::vector<NewVelocity<3>>&, std::uint64_t EventCounts::*);
 
 }  // namespace clatter

@@ -29,7 +29,7 @@ static constexpr double kBytesPerParticle =
 
 template <int D>
 static GasMemory memory_of(const Scene& scene) {
-  const double count = scene.particles.count;
+  const auto count = static_cast<double>(final_count(scene));
   const double remainder = scene.box.maxCoeff() > kLongBox ? sizeof(Vec<D>) : 0.0;
   return {count * (kBytesPerParticle<D> + remainder), scene.spins() ? count * sizeof(Spin<D>) : 0.0,
           scene.contact_time ? count * sizeof(double) : 0.0};
@@ -47,13 +47,14 @@ static int most_particles(const Scene& scene) {
 void require_memory(const Scene& scene) {
   const double there = machine_memory();
   const double needed = gas_memory(scene).total();
-  if (needed <= there && scene.particles.count <= most_particles(scene)) return;
-  const double fitting = std::floor(scene.particles.count * (there / needed));
+  const std::int64_t count = final_count(scene);
+  if (needed <= there && count <= most_particles(scene)) return;
+  const double fitting = std::floor(static_cast<double>(count) * (there / needed));
   const auto gigabytes = [](double bytes) { return number_text(std::round(1e-9 * bytes)); };
   const std::string reason = needed <= there ? " particles exceed the limit of the program"
                                              : " particles take about " + gigabytes(needed) +
                                                    " GB, and this machine has " + gigabytes(there);
-  throw UserError({"particles.count", 0, 0}, std::to_string(scene.particles.count) + reason,
+  throw UserError({"particles.count", 0, 0}, std::to_string(count) + reason,
                   "choose at most " + std::to_string(static_cast<int>(
                                           std::min<double>(most_particles(scene), fitting))));
 }

@@ -47,7 +47,7 @@ struct WallCollision {
   ParticleChange<D> particle;
 };
 
-/// Cause of a kick.
+/// Cause of a kick. A puff is a nudge of the particles that enter.
 enum class KickCause { BulkDrive, Nudge };
 
 /// A kick of one particle: a sudden change of its motion without a partner. Bulk driving kicks all

@@ -24,6 +24,7 @@ struct EventCounts {
   std::uint64_t kicks = 0;             ///< of bulk driving, each of all particles
   std::uint64_t nudges = 0;            ///< of the scene's changes
   std::uint64_t strokes = 0;           ///< of the piston, by the scene's changes
+  std::uint64_t puffs = 0;             ///< of the scene's changes
   std::uint64_t elasticised = 0;       ///< pair collisions that the TC model made elastic
   std::uint64_t elasticised_wall = 0;  ///< collisions with walls that the TC model made elastic
   /// Exits of particles from their cells or, with NeighbourLists, from their regions.
@@ -32,6 +33,8 @@ struct EventCounts {
 
   /// Collisions with particles and with walls.
   std::uint64_t collisions() const { return pair_collisions + wall_collisions; }
+  /// Changes of the scene that were acts, see Change::acts.
+  std::uint64_t acts() const { return nudges + strokes + puffs; }
   /// All events that the loop processes.
   std::uint64_t steps() const { return collisions() + kicks + cell_crossings + stale; }
 };
@@ -64,7 +67,7 @@ struct RunState {
   std::vector<Vec<D>> remainders;       ///< [N] exact positions - flights.r, or empty: all 0
   std::uint64_t until_base_moves = 0;   ///< physical events left
   double mean_collision_time = 0.0;     ///< of a particle, see Watchdog; 0: not known
-  /// Of the fastest particle at the start or after a nudge, or of a stroke of the piston.
+  /// Of the fastest particle at the start, or after a nudge or puff, or of a stroke of the piston.
   double start_speed = 0.0;
   double kick_interval = 0.0;  ///< of bulk driving; 0: none
   double kick_origin = 0.0;    ///< simulation time from which kicks are counted
@@ -86,9 +89,10 @@ using AnyRunState = std::variant<RunState<2>, RunState<3>>;
 /// Visits the counts that the run determines, in order. The others depend on cells and tiles.
 template <class Archive>
 void visit(Archive& io, EventCounts& counts) {
-  auto& [pair_collisions, wall_collisions, kicks, nudges, strokes, elasticised, elasticised_wall,
-         cell_crossings, stale] = counts;
-  io(pair_collisions, wall_collisions, kicks, nudges, strokes, elasticised, elasticised_wall);
+  auto& [pair_collisions, wall_collisions, kicks, nudges, strokes, puffs, elasticised,
+         elasticised_wall, cell_crossings, stale] = counts;
+  io(pair_collisions, wall_collisions, kicks, nudges, strokes, puffs, elasticised,
+     elasticised_wall);
 }
 
 /// Visits all members, in order.

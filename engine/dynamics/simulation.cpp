@@ -328,12 +328,22 @@ bool Simulation<D>::run_until(double time, std::uint64_t collisions, std::uint64
   return false;
 }
 
-// The base moves, as at a kick, because all particles' plans may be wrong.
 template <int D>
 void Simulation<D>::nudge(const Nudge& nudge) {
-  const std::vector<NewVelocity<D>> velocities = loop_.velocities_after(nudge);
+  set_velocities(loop_.velocities_after(nudge), &EventCounts::nudges);
+}
+
+template <int D>
+void Simulation<D>::start_puff(const std::vector<NewVelocity<D>>& velocities) {
+  set_velocities(velocities, &EventCounts::puffs);
+}
+
+// The base moves, as at a kick, because all particles' plans may be wrong.
+template <int D>
+void Simulation<D>::set_velocities(const std::vector<NewVelocity<D>>& velocities,
+                                   std::uint64_t EventCounts::*count) {
   for (const NewVelocity<D>& next : velocities) allow_speed(next.velocity.norm());
-  loop_.nudge(velocities);
+  loop_.nudge(velocities, count);
   move_base();
 }
 

@@ -74,6 +74,9 @@ class Simulation {
   /// Changes velocities now. All events up to now must have been processed, as after run_until().
   /// Throws PhysicalStop if a particle would be too fast; the state then is unchanged.
   void nudge(const Nudge& nudge);
+  /// Gives the particles of a puff, which are at rest, their velocities now. As at a nudge, all
+  /// events up to now must have been processed.
+  void start_puff(const std::vector<NewVelocity<D>>& velocities);
   /// Moves the rest position of the right wall, a piston, from its present place to `position` on
   /// the x axis, at constant velocity from `start`, the time now, to `end`. All events up to now
   /// must have been processed.
@@ -140,6 +143,8 @@ class Simulation {
   void move_base();
   bool compresses() const;
   void allow_speed(double speed);
+  void set_velocities(const std::vector<NewVelocity<D>>& velocities,
+                      std::uint64_t EventCounts::*count);
   void attend_to(typename EventLoop<D>::Halt halt);
   void choose_way();
   void leave_tiles();

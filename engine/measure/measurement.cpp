@@ -101,6 +101,7 @@ bool Measurement<D>::is_overdue() const {
 
 template <int D>
 std::string Measurement<D>::save() {
+  if (!(window_ > 0.0)) return "";
   ArchiveWriter writer;
   visit(writer);
   if (started_) observables_.save(writer);

@@ -21,7 +21,7 @@ struct WindowTotals {
   double spin_temperature = 0.0;             ///< exact time average of I <omega^2> per component
   double walls_in = 0.0;                     ///< energy input of the walls
   double bulk_in = 0.0;                      ///< energy input of kicks
-  double nudges_in = 0.0;                    ///< energy input of nudges
+  double nudges_in = 0.0;                    ///< energy input of nudges and puffs
   double gravity_in = 0.0;                   ///< work of gravity on the flights that ended
   double dissipated = 0.0;                   ///< energy lost between particles, > 0
   double undissipated = 0.0;                 ///< energy that the TC model saved from dissipation

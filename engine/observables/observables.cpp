@@ -187,7 +187,7 @@ std::vector<std::string> observable_tables() {
 double observables_memory(const Scene& scene) {
   const Measure& measure = scene.measure;
   const int dimension = scene.dimension();
-  const double particles = scene.particles.count;
+  const auto particles = static_cast<double>(final_count(scene));
   constexpr double kFine = PartSums<ObservableSums, 1024>::kMaxParts + 1.0;
   constexpr double kCoarse = PartSums<ObservableSums>::kMaxParts + 1.0;
   constexpr double kBins = LogBins::kCount + 64.0;  // and the sums of means

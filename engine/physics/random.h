@@ -6,7 +6,7 @@
 namespace clatter {
 
 /// Purpose of a random number. Streams of different purposes never share numbers.
-enum class Stream : std::uint32_t { Placement, Velocity, ThermalWall, Kick, StartSpin };
+enum class Stream : std::uint32_t { Placement, Velocity, ThermalWall, Kick, StartSpin, Puff };
 
 /// Counter-based generator Philox4x32-10 (Salmon, Moraes, Dror, Shaw 2011): four random words of 32
 /// bits, a pure function of counter and key.

@@ -74,6 +74,10 @@ struct SetLaws {
 struct Nudge {
   clatter::Nudge nudge;
 };
+/// Adds the particles of a puff. Each puff counts, like a nudge.
+struct AddPuff {
+  Puff puff;
+};
 /// Moves the piston to a position on the x axis in a duration > 0, after its strokes that have
 /// begun. Each stroke counts, like a nudge.
 struct MovePiston {
@@ -105,8 +109,8 @@ struct CopyGas {};
 struct RemoveGas {
   std::size_t gas = 0;
 };
-/// Selects the gas that commands about one gas change from now on: laws, nudges, strokes, futures,
-/// picks and Open::scene. A number without a gas selects none other.
+/// Selects the gas that commands about one gas change from now on: laws, nudges, puffs, strokes,
+/// futures, picks and Open::scene. A number without a gas selects none other.
 struct SelectGas {
   std::size_t gas = 0;
 };
@@ -139,8 +143,8 @@ using Command =
     std::variant<command::Play, command::PlayBackwards, command::Step, command::StepCollision,
                  command::Jump, command::StepBack, command::ExchangeFutures, command::MoveChange,
                  command::ReplaceChanges, command::Loop, command::SetSpeed, command::SetLaws,
-                 command::Nudge, command::MovePiston, command::Show, command::ShowProfile,
-                 command::Listen, command::Pick, command::CopyGas, command::RemoveGas,
-                 command::SelectGas, command::Open, command::CancelOpen>;
+                 command::Nudge, command::AddPuff, command::MovePiston, command::Show,
+                 command::ShowProfile, command::Listen, command::Pick, command::CopyGas,
+                 command::RemoveGas, command::SelectGas, command::Open, command::CancelOpen>;
 
 }  // namespace clatter

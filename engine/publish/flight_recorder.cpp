@@ -21,7 +21,7 @@ FlightRecorder<D>::FlightRecorder(Simulation<D>& simulation, double span, Flight
       since_(std::max(before.since_, simulation.base_time() - before.span_)),
       ended_(std::move(before.ended_)) {
   const auto& flights_before = before.simulation_.particles();
-  for (std::uint32_t i = 0; i < simulation.particles().size(); ++i) {
+  for (std::uint32_t i = 0; i < flights_before.size(); ++i) {
     const Flight<D>& flight = flights_before[i].flight;
     if (!keeps(i) || flight.time == simulation.particles()[i].flight.time) continue;
     ended_.push_back({i, flight, simulation.base_time(), before.simulation_.model().gravity});

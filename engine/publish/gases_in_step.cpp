@@ -106,6 +106,10 @@ void GasesInStep::nudge(const Nudge& nudge, double delay) {
   lead([&] { selected().nudge(nudge, delay); });
 }
 
+void GasesInStep::puff(const Puff& puff, double delay) {
+  lead([&] { selected().puff(puff, delay); });
+}
+
 void GasesInStep::move_piston(double position, double duration, double delay) {
   lead([&] { selected().move_piston(position, duration, delay); });
 }

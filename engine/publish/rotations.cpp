@@ -26,10 +26,11 @@ Rotations<D>::Rotations(Simulation<D>& simulation)
   simulation.add_observer(*this);
 }
 
-// A change of laws keeps the spins, unless it adds or removes all of them.
+// A change of laws keeps the spins, unless it adds or removes all of them. A puff adds particles.
 template <int D>
 Rotations<D>::Rotations(Simulation<D>& simulation, Rotations&& before)
     : simulation_(simulation), turned_(std::move(before.turned_)) {
+  turned_.resize(simulation.particles().size(), {{}, simulation.base_time()});
   simulation.add_observer(*this);
 }
 

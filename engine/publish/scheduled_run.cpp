@@ -6,6 +6,7 @@
 
 #include "engine/dynamics/memory.h"
 #include "engine/error.h"
+#include "engine/initial/puff_particles.h"
 #include "engine/initial/start_state.h"
 #include "engine/publish/publish.h"
 #include "engine/scene/piston.h"
@@ -35,8 +36,7 @@ template <int D>
 ScheduledRun<D>::ScheduledRun(const Scene& scene, std::uint64_t seed, const RunState<D>& saved,
                               const StopRequest& stop)
     : schedule_(scene), seed_(seed) {
-  schedule_.skip_to(Clock(saved.base).absolute(saved.now), saved.counts.nudges,
-                    saved.counts.strokes);
+  schedule_.skip_to(Clock(saved.base).absolute(saved.now), saved.counts.acts());
   simulation_ = std::make_unique<Simulation<D>>(model_of<D>(schedule_.laws(), seed), saved, stop);
 }
 
@@ -44,6 +44,15 @@ template <int D>
 void ScheduledRun<D>::use_threads(int threads) {
   threads_ = threads;
   simulation_->use_threads(threads);
+}
+
+template <int D>
+Scene ScheduledRun<D>::present_scene() const {
+  Scene present = scene();
+  if (present.particles.start.layout != Layout::File) {
+    present.particles.count = static_cast<int>(simulation_->particles().size());
+  }
+  return present;
 }
 
 template <int D>
@@ -107,9 +116,16 @@ void ScheduledRun<D>::change_here(const std::vector<Override>& laws) {
 
 template <int D>
 void ScheduledRun<D>::nudge(const Nudge& nudge, double delay) {
-  check_nudge(nudge, laws());
+  check_nudge(nudge, laws(), static_cast<std::int64_t>(simulation_->particles().size()));
   halt_within(delay);
   make({.time = simulation_->time(), .nudge = nudge});
+}
+
+template <int D>
+void ScheduledRun<D>::puff(const Puff& puff, double delay) {
+  check_puff(puff, laws());
+  halt_within(delay);
+  make({.time = simulation_->time(), .puff = puff});
 }
 
 // A stroke that begins later is only added to the changes to come.
@@ -151,29 +167,32 @@ void ScheduledRun<D>::make(const Change& change) {
 
 // Makes the next change of `schedule`, which then replaces that of the run. A nudge is an event of
 // the simulation, so that observers see it. A stroke of the piston is one too, so that averages
-// continue.
+// continue. The particles of a puff enter at rest, and then have a nudge, so that the energy
+// balance includes it.
 template <int D>
 void ScheduledRun<D>::advance(Schedule schedule) {
-  const Averages averages = schedule.ramps_next() ? Averages::Continue : Averages::Restart;
-  const std::optional<Nudge> nudge =
-      schedule.next_nudge() ? std::optional(*schedule.next_nudge()) : std::nullopt;
-  const std::optional<Change> stroke =
-      schedule.next_stroke() ? std::optional(*schedule.next_stroke()) : std::nullopt;
-  if (nudge) simulation_->check(*nudge);
-  const bool sets = schedule.next_sets();
+  const Change change = schedule.coming();
+  if (change.nudge) simulation_->check(*change.nudge);
   schedule.advance();
-  if (sets) {
+  if (!change.set.empty()) {
     go_on_as(
         std::make_unique<Simulation<D>>(model_of<D>(schedule.laws(), seed_), simulation_->save()),
-        averages);
+        change.ramp ? Averages::Continue : Averages::Restart);
   }
-  if (nudge) simulation_->nudge(*nudge);
-  if (stroke) simulation_->move_piston(*stroke->piston, stroke->time, stroke->until);
+  if (change.nudge) simulation_->nudge(*change.nudge);
+  if (change.piston) simulation_->move_piston(*change.piston, change.time, change.until);
+  if (change.puff) {
+    RunState<D> state = simulation_->save();
+    const auto velocities = add_puff(state, *change.puff, schedule.laws(), seed_);
+    go_on_as(std::make_unique<Simulation<D>>(simulation_->model(), std::move(state)),
+             Averages::Restart);
+    simulation_->start_puff(velocities);
+  }
   schedule_ = std::move(schedule);
 }
 
-// Replaces the simulation by `next`, which has the same particles at the same time, and hands all
-// observers over.
+// Replaces the simulation by `next`, which has the same particles at the same time and perhaps
+// further ones, and hands all observers over.
 template <int D>
 void ScheduledRun<D>::go_on_as(std::unique_ptr<Simulation<D>> next, Averages averages) {
   if (on_change) on_change(*next);

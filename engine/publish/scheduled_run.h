@@ -23,8 +23,8 @@ std::unique_ptr<Simulation<D>> simulation_of(const Scene& scene, std::uint64_t s
 double settled_time(double time);
 
 /// A simulation with the changes of its scene, and the observers of its view. At a change a new
-/// simulation continues the run under the new laws. All observers must then be handed over, see
-/// on_change.
+/// simulation continues the run under the new laws, or with the new particles. All observers must
+/// then be handed over, see on_change.
 template <int D>
 class ScheduledRun {
  public:
@@ -48,6 +48,8 @@ class ScheduledRun {
   const Scene& laws() const { return schedule_.laws(); }
   /// The scene with the current laws, and all its changes.
   Scene scene() const { return schedule_.scene(); }
+  /// The same with the present number of particles. That of a start state from a file remains.
+  Scene present_scene() const;
   /// Seed of every random number of the run.
   std::uint64_t seed() const { return seed_; }
 
@@ -71,6 +73,9 @@ class ScheduledRun {
   /// UserError or PhysicalStop if the nudge is impossible; nothing then changes.
   void nudge(const Nudge& nudge, double delay = 0.0);
 
+  /// Adds particles as change() changes laws, and adds the puff to the scene's changes. Throws
+  /// UserError or PhysicalStop if the puff is impossible; nothing then changes.
+  void puff(const Puff& puff, double delay = 0.0);
   /// Moves the piston to a position in a duration, > 0, and adds the stroke to the scene's changes.
   /// The stroke begins at the end of those that are on their way, or within `delay`. Throws
   /// UserError if it is impossible; nothing then changes.

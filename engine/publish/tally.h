@@ -14,7 +14,7 @@ struct Tally {
   double spin_temperature_integral = 0.0;  ///< time integral of the spin temperature
   double walls_in = 0.0;                   ///< energy input of the walls
   double bulk_in = 0.0;                    ///< energy input of kicks
-  double nudges_in = 0.0;                  ///< energy input of nudges
+  double nudges_in = 0.0;                  ///< energy input of nudges and puffs
   double gravity_in = 0.0;                 ///< work of gravity
   double dissipated = 0.0;                 ///< energy lost between particles, > 0
   double undissipated = 0.0;               ///< additional loss without t_c

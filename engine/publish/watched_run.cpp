@@ -47,6 +47,7 @@ class RunOf : public WatchedRun {
     branch([&] { run_.change(laws, delay); });
   }
   void nudge(const Nudge& nudge, double delay) override;
+  void puff(const Puff& puff, double delay) override;
   void move_piston(double position, double duration, double delay) override;
   double replace_changes(std::vector<Change> changes, double from) override;
   double head() const override { return std::max(head_, time()); }
@@ -408,7 +409,7 @@ void RunOf<D>::branch(const std::function<void()>& change) {
   record();
 }
 
-// The record keeps no state before a change at time 0, and such a nudge or stroke could not be
+// The record keeps no state before a change at time 0, and such an act could not be
 // removed. Runs for a part of the delay at time 0, and returns the rest.
 template <int D>
 double RunOf<D>::leave_start(double delay) {
@@ -421,6 +422,12 @@ template <int D>
 void RunOf<D>::nudge(const Nudge& nudge, double delay) {
   delay = leave_start(delay);
   branch([&] { run_.nudge(nudge, delay); });
+}
+
+template <int D>
+void RunOf<D>::puff(const Puff& puff, double delay) {
+  delay = leave_start(delay);
+  branch([&] { run_.puff(puff, delay); });
 }
 
 template <int D>
@@ -454,6 +461,7 @@ double RunOf<D>::move_change(std::size_t number, double time) {
   Scene scene = run_.laws();
   scene.changes = changes;
   check_pistons(scene);
+  check_nudges(scene);
   return replace_changes(std::move(changes), from);
 }
 
@@ -541,7 +549,7 @@ bool RunOf<D>::looks_ahead() const {
 template <int D>
 void RunOf<D>::tell(Frame& frame, bool halted) {
   close_window();
-  if (!scene_) scene_ = std::make_shared<const Scene>(run_.scene());
+  if (!scene_) scene_ = std::make_shared<const Scene>(run_.present_scene());
   frame.snapshot = run_.snapshot();
   frame.head = head();
   frame.stops = record_.stops();

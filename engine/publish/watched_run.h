@@ -57,6 +57,9 @@ class WatchedRun {
   /// As ScheduledRun::nudge, and in the past as change(). The nudge is after time 0 if there is a
   /// delay.
   virtual void nudge(const Nudge& nudge, double delay) = 0;
+  /// As ScheduledRun::puff, and in the past as change(). The puff is after time 0 if there is a
+  /// delay.
+  virtual void puff(const Puff& puff, double delay) = 0;
   /// As ScheduledRun::move_piston, and in the past as change(). The stroke is after time 0 if there
   /// is a delay.
   virtual void move_piston(double position, double duration, double delay) = 0;
@@ -71,7 +74,8 @@ class WatchedRun {
   /// future.
   virtual double exchange_futures() = 0;
   /// Moves a change to another simulation time > 0, as by replace_changes(). Throws UserError if
-  /// there is no such change after time 0, or if strokes of the piston would overlap.
+  /// there is no such change after time 0, if strokes of the piston would overlap, or if a nudge
+  /// would come before its particle.
   virtual double move_change(std::size_t number, double time) = 0;
   /// Latest simulation time that the run has reached.
   virtual double head() const = 0;

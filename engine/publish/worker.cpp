@@ -236,6 +236,9 @@ class EngineWork {
   void obey(const command::Nudge& asked) {
     if (gases_) gases_->nudge(asked.nudge, delay());
   }
+  void obey(const command::AddPuff& asked) {
+    if (gases_) gases_->puff(asked.puff, delay());
+  }
   void obey(const command::MovePiston& asked) {
     if (gases_) gases_->move_piston(asked.position, asked.duration, delay());
   }

@@ -37,6 +37,26 @@ void visit_nudge(Visitor& io, Nudge& nudge) {
            nudge.scale || nudge.add ? kOneOfNudge : kOptional);
 }
 
+inline constexpr auto kPuffKeys = key_table(
+    kRunCommands,
+    {{"count", "1", "Number of particles that enter the gas."},
+     {"centre", "a",
+      "Centre of the region, in the box. The new particles have their centres in it."},
+     {"radius", "a", "Radius of the region, a disk or a ball. It continues across periodic sides."},
+     {"temperature", "m a^2/t^2", "Temperature of the velocities, which are Gaussian."},
+     {"velocity", "a/t", "Mean velocity of the new particles. Without a value it is 0."}});
+
+/// The keys of [change.puff].
+template <class Visitor>
+void visit_puff(Visitor& io, Puff& puff) {
+  io.value(kPuffKeys.at("count"), puff.count, between(1, kMaxCount), kRequired);
+  io.value(kPuffKeys.at("centre"), puff.centre, at_least(0.0), kRequired);
+  io.value(kPuffKeys.at("radius"), puff.radius,
+           Limits{.lowest = 0.0, .highest = kMaxLength, .above = true}, kRequired);
+  io.value(kPuffKeys.at("temperature"), puff.temperature, between(0.0, kMaxTemperature));
+  io.value(kPuffKeys.at("velocity"), puff.velocity, between(-kMaxSpeed, kMaxSpeed));
+}
+
 inline constexpr auto kChangeKeys = key_table(
     kRunCommands,
     {{"time", "t", "Simulation time of the change."},
@@ -59,6 +79,7 @@ void visit_change(Visitor& io, Change& change) {
   io.value(kChangeKeys.at("until"), change.until, above(change.time),
            change.ramp || change.piston ? kRequired : kNotWithoutRamp);
   io.table("nudge", change.nudge, [](auto& io, Nudge& nudge) { visit_nudge(io, nudge); });
+  io.table("puff", change.puff, [](auto& io, Puff& puff) { visit_puff(io, puff); });
 }
 
 }  // namespace clatter

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string_view>
@@ -24,10 +26,26 @@ struct Nudge {
   bool operator==(const Nudge&) const = default;
 };
 
-/// Throws UserError if keys of a nudge are missing or impossible in the scene. `place_of` is the
-/// place of a key in the user's input.
+/// Throws UserError if a vector of a change has another size than the box. `owner` is the change,
+/// such as "nudge", and `place` the place of the key in the user's input.
+void check_size(const VecX& vector, const Scene& scene, std::string_view owner,
+                std::string_view key, const Place& place);
+
+/// Throws UserError if the centre of a region is outside of the scene's box. Its size is right.
+void check_centre(const VecX& centre, const Scene& scene, std::string_view owner,
+                  const Place& place);
+
+/// Throws UserError if keys of a nudge are missing, or impossible in a gas of `count` particles in
+/// the scene's box. `place_of` is the place of a key in the user's input.
 void check_nudge(
-    const Nudge& nudge, const Scene& scene,
+    const Nudge& nudge, const Scene& scene, std::int64_t count,
     const std::function<Place(std::string_view key)>& place_of = [](auto) { return Place(); });
+
+/// The same for all nudges among the scene's changes. `place_of` is the place of a key of the nudge
+/// of a change.
+void check_nudges(
+    const Scene& scene,
+    const std::function<Place(std::size_t change, std::string_view key)>& place_of =
+        [](auto, auto) { return Place(); });
 
 }  // namespace clatter

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/physics/theory.h"
 #include "engine/scene/limits.h"
 #include "engine/scene/text.h"
 
@@ -20,9 +21,8 @@ static std::vector<std::size_t> strokes_of(const std::vector<Change>& changes) {
   for (std::size_t number = 0; number < changes.size(); ++number) {
     if (changes[number].piston) strokes.push_back(number);
   }
-  std::stable_sort(strokes.begin(), strokes.end(), [&](std::size_t a, std::size_t b) {
-    return changes[a].time < changes[b].time;
-  });
+  std::stable_sort(strokes.begin(), strokes.end(),
+                   [&](std::size_t a, std::size_t b) { return changes[a].time < changes[b].time; });
   return strokes;
 }
 
@@ -32,7 +32,7 @@ void check_pistons(const Scene& scene,
   for (const std::size_t number : strokes_of(scene.changes)) {
     const Change& change = scene.changes[number];
     const auto place = [&](std::string_view key) { return place_of(number, key); };
-    if (!change.set.empty() || change.ramp || change.nudge) {
+    if (!change.set.empty() || change.ramp || change.nudge || change.puff) {
       throw UserError(place("piston"), "a piston has no other key beside time and until",
                       "give the piston a [[change]] of its own");
     }
@@ -77,7 +77,9 @@ double compressed_fraction(const Scene& scene) {
   for (const Change& change : scene.changes) {
     position = std::min(position, change.piston.value_or(position));
   }
-  return scene.packing_fraction() * scene.box[0] / position;
+  return packing_fraction(scene.dimension(),
+                          static_cast<double>(final_count(scene)) / scene.box.prod()) *
+         scene.box[0] / position;
 }
 
 }  // namespace clatter

@@ -11,6 +11,7 @@
 #include "engine/scene/field.h"
 #include "engine/scene/nudge.h"
 #include "engine/scene/observable_settings.h"
+#include "engine/scene/puff.h"
 #include "engine/scene/view.h"
 #include "engine/scene/wall.h"
 #include "engine/vec.h"
@@ -97,8 +98,8 @@ struct Override {
 /// Course of numbers to their new values.
 enum class Ramp { Linear };
 
-/// A change of laws or velocities, or a stroke of the piston, during a run. It comes after the
-/// events of the same time.
+/// A change of laws, of velocities or of the number of particles, or a stroke of the piston, during
+/// a run. It comes after the events of the same time.
 struct Change {
   double time = 0.0;               ///< simulation time, >= 0
   std::vector<Override> set = {};  ///< keys that may change live, all at once; empty: none
@@ -108,6 +109,10 @@ struct Change {
   std::optional<double> piston = {};
   double until = 0.0;               ///< of a ramp or the piston: the time at which it ends, > time
   std::optional<Nudge> nudge = {};  ///< of velocities, after the change of laws; absent: none
+  std::optional<Puff> puff = {};    ///< particles that enter the gas; absent: none
+
+  /// Whether it acts on the particles or the piston, so that it happens once.
+  bool acts() const { return nudge || piston || puff; }
 
   bool operator==(const Change&) const = default;
 };

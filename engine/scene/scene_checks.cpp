@@ -307,19 +307,26 @@ void check_change_tables(const Scene& scene, const toml::table& root, const std:
   for (std::size_t number = 0; number < scene.changes.size(); ++number) {
     const Change& change = scene.changes[number];
     const auto place = [&](const std::string& key) { return place_in(number, key); };
-    if (change.set.empty() && !change.nudge && !change.piston) {
-      throw UserError(place(""), "a change needs 'set', 'nudge' or 'piston'",
-                      "give new values of keys, a nudge, or a position of the piston");
+    if (change.set.empty() && !change.acts()) {
+      throw UserError(place(""), "a change needs 'set', 'nudge', 'puff' or 'piston'",
+                      "give new values of keys, a nudge, a puff, or a position of the piston");
     }
-    if (!change.nudge) continue;
-    if (change.ramp) {
+    if (change.puff) {
+      if (!change.set.empty() || change.ramp || change.nudge) {
+        throw UserError(place("puff"), "a puff has no other key beside time",
+                        "give the puff a [[change]] of its own");
+      }
+      check_puff(*change.puff, scene,
+                 [&](std::string_view key) { return place("puff." + std::string(key)); });
+    }
+    if (change.nudge && change.ramp) {
       throw UserError(place("ramp"), "a nudge has no ramp: it acts at one time",
                       "give the nudge a [[change]] of its own");
     }
-    check_nudge(*change.nudge, scene, [&](std::string_view key) {
-      return place("nudge" + std::string(key.empty() ? "" : ".") + std::string(key));
-    });
   }
+  check_nudges(scene, [&](std::size_t number, std::string_view key) {
+    return place_in(number, "nudge" + std::string(key.empty() ? "" : ".") + std::string(key));
+  });
   check_pistons(scene, [&](std::size_t number, std::string_view key) {
     return place_in(number, std::string(key));
   });

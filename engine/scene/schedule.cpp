@@ -132,24 +132,12 @@ void Schedule::advance() {
   change_to(on_the_way(laws_, change.set, 1.0 / (kRampSteps - step.part + 1)));
 }
 
-const Nudge* Schedule::next_nudge() const {
-  const std::optional<Nudge>& nudge = (*changes_)[next_change()].nudge;
-  return nudge ? &*nudge : nullptr;
-}
-
-const Change* Schedule::next_stroke() const {
-  const Change& change = (*changes_)[next_change()];
-  return change.piston ? &change : nullptr;
-}
-
-// A run that halted between the events of a time and its nudge or stroke has this time, with
-// rounding.
-void Schedule::skip_to(double time, std::uint64_t nudges, std::uint64_t strokes) {
+// A run that halted between the events of a time and its act has this time, with rounding.
+void Schedule::skip_to(double time, std::uint64_t acts) {
   constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
   while (next() <= time) {
     const bool now = next() * (1.0 + kRoundings) >= time;
-    if (next_nudge() && nudges-- == 0 && now) return;
-    if (next_stroke() && strokes-- == 0 && now) return;
+    if (coming().acts() && acts-- == 0 && now) return;
     advance();
   }
 }

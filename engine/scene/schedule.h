@@ -14,7 +14,7 @@ namespace clatter {
 /// and the contact time.
 bool may_change_live(std::string_view key);
 
-/// The laws and nudges of a scene in time, from its `changes`. A ramp has equal steps, so that all
+/// The laws and acts of a scene in time, from its `changes`. A ramp has equal steps, so that all
 /// commands and the window change the same laws at the same times.
 class Schedule {
  public:
@@ -31,28 +31,19 @@ class Schedule {
   const std::vector<Change>& changes() const { return *changes_; }
   /// Simulation time of the next change; infinite: never.
   double next() const;
-  /// The nudge of the next change, which belongs after its change of laws; nullptr: none.
-  const Nudge* next_nudge() const;
-  /// The next change, if it is a stroke of the piston; nullptr: it is none.
-  const Change* next_stroke() const;
-  /// Whether the next change has laws.
-  bool next_sets() const { return !(*changes_)[next_change()].set.empty(); }
+  /// The change of the next step. It exists if next() is finite.
+  const Change& coming() const { return (*changes_)[next_change()]; }
   /// Makes the next change of laws, if it has any. Throws UserError if the result is invalid, or
   /// needs another gas or box.
   void advance();
-  /// Makes all changes up to and at the simulation time of a run that has had so many nudges and
-  /// strokes of the piston. A nudge or stroke at this time that the run has not had stays, with all
-  /// changes after it.
-  void skip_to(double time, std::uint64_t nudges = ~std::uint64_t{0},
-               std::uint64_t strokes = ~std::uint64_t{0});
+  /// Makes all changes up to and at the simulation time of a run that has had so many acts, see
+  /// Change::acts. An act at this time that the run has not had stays, with all changes after it.
+  void skip_to(double time, std::uint64_t acts = ~std::uint64_t{0});
   /// Adds a change at the current time or later.
   void add(const Change& change);
 
   /// Index of the next step's change.
   std::size_t next_change() const { return steps_.front().change; }
-
-  /// Whether the next change of laws is a step of a ramp.
-  bool ramps_next() const { return (*changes_)[next_change()].ramp.has_value(); }
 
   /// Number of steps of a ramp.
   static constexpr int kRampSteps = 64;

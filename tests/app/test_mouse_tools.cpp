@@ -213,6 +213,45 @@ TEST_CASE("Mouse tools: spheres are heated in a ball in the box") {
   check_saved_run(driver, driver.wait_for("status", told, halted));
 }
 
+TEST_CASE("Mouse tools: a click adds particles in the circle, and undo removes them") {
+  const GuiDriver driver("--until 1 --set particles.count=60");
+  const json before = driver.wait_for("status", 0, halted);
+  driver.key("5");
+  std::size_t told = driver.told();
+  driver.click("viewport");
+  const json puff = driver.wait_for("puff", told);
+  CHECK(puff["count"] == 20);
+  CHECK(puff["radius"] == 3.0);
+  CHECK(puff["temperature"].get<double>() ==
+        doctest::Approx(before["temperature"].get<double>()).epsilon(5e-3));
+  driver.wait_for("status", told, [](const json& status) { return status["particles"] == 80; });
+  told = driver.told();
+  driver.key("period");
+  const json next = driver.wait_for("status", told, halted);
+  CHECK(next["changes"] == 1);
+  CHECK(next["particles"] == 80);
+  check_saved_run(driver, next);
+
+  told = driver.told();
+  driver.key("ctrl+z");
+  CHECK(driver.wait_for("status", told, [](const json& status) {
+    return halted(status) && status["particles"] == 60;
+  })["changes"] == 0);
+  told = driver.told();
+  driver.key("ctrl+y");
+  driver.wait_for("status", told, [](const json& status) { return status["particles"] == 80; });
+}
+
+TEST_CASE("Mouse tools: particles without room are refused with a message") {
+  const GuiDriver driver("--until 1 --set particles.count=60");
+  driver.wait_for("status", 0, halted);
+  driver.click("tool.add");
+  const std::size_t told = driver.told();
+  for (int click = 0; click < 3; ++click) driver.click("viewport");
+  CHECK(driver.wait_for("message", told)["text"].get<std::string>().find("has room for") !=
+        std::string::npos);
+}
+
 TEST_CASE("Mouse tools: lecture mode has them, and the pen takes their place") {
   const GuiDriver driver("");
   driver.key("l");

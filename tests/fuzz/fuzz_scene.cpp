@@ -75,6 +75,16 @@ std::string extreme_strokes(std::minstd_rand& random) {
          " }, { time = " + time + ", piston = " + extreme_number(random) + ", until = 5 }]";
 }
 
+// A list of changes by a puff and by a throw of one of its particles.
+std::string extreme_puffs(std::minstd_rand& random) {
+  return "[{ time = 0.1, puff = { count = " + std::to_string(1 + random() % 50) + ", centre = [" +
+         extreme_number(random) + ", " + extreme_number(random) +
+         "], radius = " + extreme_number(random) + ", temperature = " + extreme_number(random) +
+         " } }, { time = " + extreme_number(random) +
+         ", nudge = { particle = " + std::to_string(random() % 50) + ", set = [1, " +
+         extreme_number(random) + "] } }]";
+}
+
 std::string extreme_value(std::minstd_rand& random) {
   constexpr std::array<const char*, 20> kWords = {
       "static",   "driven", "thermal",  "sawtooth",  "sinusoidal", "exact",  "snapshot",
@@ -111,7 +121,14 @@ std::string extreme_setting(const std::vector<std::string>& keys, std::minstd_ra
     case 0:
       return "box.size=" + narrow_box(random);
     case 1:
-      return "change=" + (random() % 2 ? extreme_nudges(random) : extreme_strokes(random));
+      switch (random() % 3) {
+        case 0:
+          return "change=" + extreme_nudges(random);
+        case 1:
+          return "change=" + extreme_puffs(random);
+        default:
+          return "change=" + extreme_strokes(random);
+      }
     case 2:
       return "view.captions=[{ text = 'T_{0} v^2', from = " + extreme_number(random) +
              ", to = " + extreme_number(random) + " }]";
@@ -210,7 +227,7 @@ void run(const Scene& scene, bool deep) {
 
 void run(const std::string& text) {
   const Scene scene = parse_scene(text, "fuzz.toml", settings_in(text));
-  if (scene.particles.count > kMaxParticles) return;
+  if (final_count(scene) > kMaxParticles) return;
   with_dimension(scene.dimension(),
                  [&](auto dimension) { run<dimension>(scene, is_one_in(8, text)); });
 }

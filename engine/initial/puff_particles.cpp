@@ -1,0 +1,112 @@
+#include "engine/initial/puff_particles.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/dynamics/cell_grid.h"
+#include "engine/dynamics/clock.h"
+#include "engine/dynamics/model.h"
+#include "engine/error.h"
+#include "engine/physics/random.h"
+#include "engine/scene/limits.h"
+
+namespace clatter {
+
+namespace {
+
+// The particles of a gas at one time, and the room between them that no wall reaches.
+template <int D>
+class FreeRoom {
+ public:
+  FreeRoom(const Model<D>& model, const Scene& laws, const RunState<D>& state, double count)
+      : model_(model), grid_(model, count), low_(laws.clear_corner()) {
+    high_ = low_ + Vec<D>(laws.clear_box());
+    if (state.piston) high_[0] -= state.piston->travel(Clock(state.base).absolute(state.now));
+    for (const Flight<D>& flight : state.flights) {
+      insert(model.wrapped(flight.at(state.now, state.gravity)));
+    }
+  }
+
+  // Inserts a centre in the box, if it has room there.
+  bool insert_if_free(const Vec<D>& point) {
+    const double radius = 0.5 * model_.diameter;
+    for (int axis = 0; axis < D; ++axis) {
+      if (model_.periodic(axis)) continue;
+      if (!(point[axis] >= low_[axis] + radius && point[axis] <= high_[axis] - radius))
+        return false;
+    }
+    bool overlaps = false;
+    grid_.visit(grid_.cell_at(point), [&](std::uint32_t other, const Vec<D>& wrap) {
+      const Vec<D> way = centres_[other] - point + wrap.cwiseProduct(model_.box);
+      overlaps = overlaps || way.norm() < model_.diameter;
+    });
+    if (!overlaps) insert(point);
+    return !overlaps;
+  }
+
+ private:
+  void insert(const Vec<D>& point) {
+    grid_.insert(static_cast<std::uint32_t>(centres_.size()), grid_.cell_at(point));
+    centres_.push_back(point);
+  }
+
+  const Model<D>& model_;
+  CellGrid<D> grid_;
+  Vec<D> low_, high_;  // of the room for surfaces, along axes with walls
+  std::vector<Vec<D>> centres_;
+};
+
+// A point in a ball around the origin, with equal probability everywhere.
+template <int D>
+Vec<D> point_in_ball(double radius, Random& random) {
+  Vec<D> point;
+  do {
+    for (double& component : point) component = 2.0 * random.uniform() - 1.0;
+  } while (point.squaredNorm() > 1.0);
+  return radius * point;
+}
+
+}  // namespace
+
+template <int D>
+std::vector<NewVelocity<D>> add_puff(RunState<D>& state, const Puff& puff, const Scene& laws,
+                                     std::uint64_t seed) {
+  constexpr int kTries = 10'000;  // of a particle in succession
+  const Model<D> model = model_of<D>(laws, seed);
+  const std::size_t before = state.flights.size();
+  FreeRoom<D> room(model, laws, state, static_cast<double>(before) + puff.count);
+  Random random(seed, Stream::Puff, static_cast<std::uint32_t>(state.counts.puffs), 0);
+  const Vec<D> centre = puff.centre;
+  std::vector<NewVelocity<D>> velocities;
+  for (int placed = 0; placed < puff.count; ++placed) {
+    const auto number = static_cast<std::uint32_t>(state.flights.size());
+    Vec<D> point;
+    int tries = 0;
+    do {
+      if (++tries > kTries) {
+        throw PhysicalStop(
+            fmt::format("the puff at t = {:.9g} has room for {} of {} particles; "
+                        "give fewer, or a larger radius",
+                        Clock(state.base).absolute(state.now), placed, puff.count));
+      }
+      point = model.wrapped(centre + point_in_ball<D>(puff.radius, random));
+    } while (!room.insert_if_free(point));
+    state.flights.push_back({point, Vec<D>::Zero(), state.now, 0});
+    Vec<D> velocity = puff.velocity ? Vec<D>(*puff.velocity) : Vec<D>(Vec<D>::Zero());
+    for (double& component : velocity) component += std::sqrt(puff.temperature) * random.normal();
+    if (!(velocity.norm() <= kMaxSpeed)) {
+      throw PhysicalStop(fmt::format(
+          "a puff gives particle {} a speed above {:.0e}; make it colder", number, kMaxSpeed));
+    }
+    velocities.push_back({number, velocity});
+  }
+  return velocities;
+}
+
+template std::vector<NewVelocity<2>> add_puff(RunState<2>&, const Puff&, const Scene&,
+                                              std::uint64_t);
+template std::vector<NewVelocity<3>> add_puff(RunState<3>&, const Puff&, const Scene&,
+                                              std::uint64_t);
+
+}  // namespace clatter
