@@ -91,6 +91,7 @@ std::optional<std::size_t> particle_near(const Snapshot& gas, const WindowMap& m
 bool MouseTools::panel(const Scene& scene, Controls& controls) {
   if (!controls.group("Mouse tools")) return false;
   constexpr auto kCount = static_cast<float>(kTools.size());
+  constexpr int kColumns = 3;  // of a narrow panel
   const float gap = ImGui::GetStyle().ItemSpacing.x, room = ImGui::GetContentRegionAvail().x;
   float text = 0.0f;
   for (const ToolText& tool : kTools) text += ImGui::CalcTextSize(tool.name).x;
@@ -100,9 +101,9 @@ bool MouseTools::panel(const Scene& scene, Controls& controls) {
   std::size_t column = 0;
   for (const ToolText& tool : kTools) {
     if (!controls.shows(tool.key)) continue;
-    if (column++ % (in_row ? kTools.size() : 2) > 0) ImGui::SameLine();
-    const float width =
-        in_row ? ImGui::CalcTextSize(tool.name).x + around : std::floor(0.5f * (room - gap));
+    if (column++ % (in_row ? kTools.size() : kColumns) > 0) ImGui::SameLine();
+    const float width = in_row ? ImGui::CalcTextSize(tool.name).x + around
+                               : std::floor((room + gap) / kColumns - gap);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, ImGui::GetStyle().FramePadding.y));
     if (controls.button(tool.key, tool.name, tool.help, width, tool_ == tool.tool)) {
       toggle(tool.tool);

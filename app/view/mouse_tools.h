@@ -43,7 +43,8 @@ inline constexpr std::array<ToolText, 5> kTools = {{
      "playing (4)",
      "drag an arrow from a particle  ·  Esc ends"},
     {Tool::Add, "tool.add", "Add",
-     "A click adds particles of the present temperature in a circle at the mouse (5)",
+     "A click adds particles of the present temperature in a circle at the mouse, as many as find "
+     "room (5)",
      "click to add particles  ·  Esc ends"},
 }};
 

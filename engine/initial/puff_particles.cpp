@@ -70,43 +70,35 @@ Vec<D> point_in_ball(double radius, Random& random) {
 }  // namespace
 
 template <int D>
-std::vector<NewVelocity<D>> add_puff(RunState<D>& state, const Puff& puff, const Scene& laws,
-                                     std::uint64_t seed) {
+std::vector<PuffParticle<D>> puff_particles(const RunState<D>& state, const Puff& puff,
+                                            const Scene& laws, std::uint64_t seed) {
   constexpr int kTries = 10'000;  // of a particle in succession
   const Model<D> model = model_of<D>(laws, seed);
   const std::size_t before = state.flights.size();
   FreeRoom<D> room(model, laws, state, static_cast<double>(before) + puff.count);
   Random random(seed, Stream::Puff, static_cast<std::uint32_t>(state.counts.puffs), 0);
   const Vec<D> centre = puff.centre;
-  std::vector<NewVelocity<D>> velocities;
-  for (int placed = 0; placed < puff.count; ++placed) {
-    const auto number = static_cast<std::uint32_t>(state.flights.size());
-    Vec<D> point;
-    int tries = 0;
-    do {
-      if (++tries > kTries) {
-        throw PhysicalStop(
-            fmt::format("the puff at t = {:.9g} has room for {} of {} particles; "
-                        "give fewer, or a larger radius",
-                        Clock(state.base).absolute(state.now), placed, puff.count));
-      }
-      point = model.wrapped(centre + point_in_ball<D>(puff.radius, random));
-    } while (!room.insert_if_free(point));
-    state.flights.push_back({point, Vec<D>::Zero(), state.now, 0});
-    Vec<D> velocity = puff.velocity ? Vec<D>(*puff.velocity) : Vec<D>(Vec<D>::Zero());
+  const Vec<D> mean = puff.velocity ? Vec<D>(*puff.velocity) : Vec<D>(Vec<D>::Zero());
+  std::vector<PuffParticle<D>> particles;
+  for (int tries = 0; tries < kTries && static_cast<int>(particles.size()) < puff.count; ++tries) {
+    const Vec<D> point = model.wrapped(centre + point_in_ball<D>(puff.radius, random));
+    if (!room.insert_if_free(point)) continue;
+    tries = 0;
+    Vec<D> velocity = mean;
     for (double& component : velocity) component += std::sqrt(puff.temperature) * random.normal();
     if (!(velocity.norm() <= kMaxSpeed)) {
-      throw PhysicalStop(fmt::format(
-          "a puff gives particle {} a speed above {:.0e}; make it colder", number, kMaxSpeed));
+      throw PhysicalStop(
+          fmt::format("a puff gives particle {} a speed above {:.0e}; make it colder",
+                      before + particles.size(), kMaxSpeed));
     }
-    velocities.push_back({number, velocity});
+    particles.push_back({point, velocity});
   }
-  return velocities;
+  return particles;
 }
 
-template std::vector<NewVelocity<2>> add_puff(RunState<2>&, const Puff&, const Scene&,
-                                              std::uint64_t);
-template std::vector<NewVelocity<3>> add_puff(RunState<3>&, const Puff&, const Scene&,
-                                              std::uint64_t);
+template std::vector<PuffParticle<2>> puff_particles(const RunState<2>&, const Puff&, const Scene&,
+                                                     std::uint64_t);
+template std::vector<PuffParticle<3>> puff_particles(const RunState<3>&, const Puff&, const Scene&,
+                                                     std::uint64_t);
 
 }  // namespace clatter

@@ -74,7 +74,7 @@ struct SetLaws {
 struct Nudge {
   clatter::Nudge nudge;
 };
-/// Adds the particles of a puff. Each puff counts, like a nudge.
+/// Adds as many particles of a puff as find room. Each puff counts, like a nudge.
 struct AddPuff {
   Puff puff;
 };

@@ -1,5 +1,7 @@
 #include "engine/publish/scheduled_run.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -125,7 +127,12 @@ template <int D>
 void ScheduledRun<D>::puff(const Puff& puff, double delay) {
   check_puff(puff, laws());
   halt_within(delay);
-  make({.time = simulation_->time(), .puff = puff});
+  Puff fitting = puff;
+  fitting.count = static_cast<int>(puff_particles(simulation_->save(), puff, laws(), seed_).size());
+  if (fitting.count == 0) {
+    throw UserError({}, "there is no room for a particle", "choose another place or radius");
+  }
+  make({.time = simulation_->time(), .puff = fitting});
 }
 
 // A stroke that begins later is only added to the changes to come.
@@ -181,14 +188,29 @@ void ScheduledRun<D>::advance(Schedule schedule) {
   }
   if (change.nudge) simulation_->nudge(*change.nudge);
   if (change.piston) simulation_->move_piston(*change.piston, change.time, change.until);
-  if (change.puff) {
-    RunState<D> state = simulation_->save();
-    const auto velocities = add_puff(state, *change.puff, schedule.laws(), seed_);
-    go_on_as(std::make_unique<Simulation<D>>(simulation_->model(), std::move(state)),
-             Averages::Restart);
-    simulation_->start_puff(velocities);
-  }
+  if (change.puff) enter(*change.puff);
   schedule_ = std::move(schedule);
+}
+
+// Lists of the state that are shorter than that of the flights are extended by Simulation.
+template <int D>
+void ScheduledRun<D>::enter(const Puff& puff) {
+  RunState<D> state = simulation_->save();
+  const std::vector<PuffParticle<D>> particles = puff_particles(state, puff, laws(), seed_);
+  if (static_cast<int>(particles.size()) < puff.count) {
+    throw PhysicalStop(
+        fmt::format("the puff at t = {:.9g} has room for {} of {} particles; give "
+                    "fewer, or a larger radius",
+                    simulation_->time(), particles.size(), puff.count));
+  }
+  std::vector<NewVelocity<D>> velocities;
+  for (const auto& [position, velocity] : particles) {
+    velocities.push_back({static_cast<std::uint32_t>(state.flights.size()), velocity});
+    state.flights.push_back({position, Vec<D>::Zero(), state.now, 0});
+  }
+  go_on_as(std::make_unique<Simulation<D>>(simulation_->model(), std::move(state)),
+           Averages::Restart);
+  simulation_->start_puff(velocities);
 }
 
 // Replaces the simulation by `next`, which has the same particles at the same time and perhaps

@@ -73,8 +73,9 @@ class ScheduledRun {
   /// UserError or PhysicalStop if the nudge is impossible; nothing then changes.
   void nudge(const Nudge& nudge, double delay = 0.0);
 
-  /// Adds particles as change() changes laws, and adds the puff to the scene's changes. Throws
-  /// UserError or PhysicalStop if the puff is impossible; nothing then changes.
+  /// Adds as many particles of a puff as find room, as change() changes laws. Adds the puff with
+  /// this number to the scene's changes. Throws UserError if none finds room or the puff is
+  /// impossible, and PhysicalStop if one is too fast; nothing then changes.
   void puff(const Puff& puff, double delay = 0.0);
   /// Moves the piston to a position in a duration, > 0, and adds the stroke to the scene's changes.
   /// The stroke begins at the end of those that are on their way, or within `delay`. Throws
@@ -118,6 +119,7 @@ class ScheduledRun {
   enum class Averages { Continue, Restart };
 
   void advance(Schedule schedule);
+  void enter(const Puff& puff);
   void go_on_as(std::unique_ptr<Simulation<D>> next, Averages averages);
 
   Schedule schedule_;

@@ -295,11 +295,18 @@ TEST_CASE("Puff: by hand it is recorded at its time, and a run of its scene has 
     CHECK(hash_of_recorded(frame, run->time()) == *frame.state_hash);
     run->run_until(6.0, kNoLimit, kNoLimit);
     CHECK(hash_of_recorded(puffed_frame(*run), 6.0) == *puffed_frame(*run).state_hash);
-    CHECK_THROWS_AS(run->puff({.count = 200, .centre = Vec2(6.0, 5.0), .radius = 2.0}, 0.0),
-                    PhysicalStop);
     CHECK_THROWS_AS(run->puff({.count = 1, .centre = Vec2(13.0, 5.0), .radius = 2.0}, 0.0),
                     UserError);
     CHECK(puffed_frame(*run).scene->changes.size() == 2);
+    // As many enter as find room.
+    run->puff({.count = 200, .centre = Vec2(6.0, 5.0), .radius = 4.0}, 0.0);
+    const std::size_t full = std::get<State<2>>(run->state()).positions.size();
+    CHECK(full > 38);
+    CHECK(full < 100);
+    CHECK(puffed_frame(*run).scene->changes[2].puff->count == static_cast<int>(full) - 37);
+    CHECK(hash_of_recorded(puffed_frame(*run), run->time()) == *puffed_frame(*run).state_hash);
+    CHECK_THROWS_AS(run->puff({.count = 200, .centre = Vec2(6.0, 5.0), .radius = 1.0}, 0.0),
+                    UserError);
     // The throw would come before the particle.
     CHECK_THROWS_AS(run->move_change(0, 5.0), UserError);
   }
