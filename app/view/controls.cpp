@@ -152,12 +152,14 @@ void Controls::group_row(std::initializer_list<const char*> names) {
   }
   const float padding = std::floor(free / static_cast<float>(words.size()));
   auto word = words.begin();
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(0.0f, ImGui::GetStyle().FramePadding.y));
   for (const std::string name : names) {
     const std::string key = "group." + name, help = "Scrolls to " + name;
     if (button(key.c_str(), word->c_str(), help.c_str(), width(*word) + padding)) revealed_ = name;
     ImGui::SameLine();
     ++word;
   }
+  ImGui::PopStyleVar();
   ImGui::NewLine();
 }
 

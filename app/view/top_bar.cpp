@@ -165,7 +165,9 @@ BarButton top_bar(Session& session, Controls& controls, PanelVisibility& shown, 
     return BarButton::None;
   }
   BarButton pressed = BarButton::None;
-  gallery_button(session, controls, shown, FLT_MAX);
+  constexpr float kOthers = 40.0f;  // width of the other widgets and the light, text sizes
+  gallery_button(session, controls, shown,
+                 ImGui::GetContentRegionMax().x - kOthers * ImGui::GetFontSize());
   play_button(session, controls);
   step_buttons(session, controls);
   reset_button(session, controls);

@@ -227,6 +227,21 @@ TEST_CASE("Panels: the light of health is red after the run has stopped by itsel
   driver.wait_for([](const Frame& frame) { return frame.run == 2 && frame.stop.empty(); });
 }
 
+TEST_CASE("Panels: the title gives way to the other widgets of the bar") {
+  Scene scene = default_scene(2);
+  scene.title = "A title that is much longer than the bar has room for";
+  PanelVisibility shown;
+  PanelDriver driver(scene, [&](Session& session, Controls& controls) {
+    ImGui::SetNextWindowPos(ImVec2(0.0f, 0.0f));
+    ImGui::SetNextWindowSize(ImVec2(46.0f * ImGui::GetFontSize(), 40.0f));
+    ImGui::Begin("bar", nullptr, ImGuiWindowFlags_NoTitleBar);
+    top_bar(session, controls, shown, true);
+    ImGui::End();
+  });
+  const auto help = driver.place("help"), light = driver.place("health");
+  CHECK(help[0] + help[2] <= light[0]);
+}
+
 TEST_CASE("Panels: a tooltip is beside its panel") {
   ImVec4 tip;
   bool on = false;

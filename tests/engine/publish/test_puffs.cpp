@@ -120,19 +120,20 @@ TEST_CASE("Puff: places are uniform in the region, velocities Gaussian, and othe
   }
 }
 
-TEST_CASE("Puff: two puffs of a run have different places") {
-  const std::string puff = "puff = { count = 3, centre = [20, 20], radius = 20 }\n";
+TEST_CASE("Puff: two puffs of a run have different places and velocities") {
+  const auto puff = [](const char* x) {
+    return std::string("[[change]]\ntime = 1\npuff = { count = 3, centre = [") + x +
+           ", 20], radius = 20 }\n";
+  };
   ScheduledRun<2> run(
-      parse_scene("box.size = [40, 40]\nparticles.count = 1\n[[change]]\ntime = 1\n" + puff +
-                      "[[change]]\ntime = 1\n" + puff,
-                  ""),
+      parse_scene("box.size = [80, 40]\nparticles.count = 0\n" + puff("20") + puff("60"), ""),
       kPuffSeed);
   run.run_until(1.0);
   const State<2> state = run.simulation().state();
-  REQUIRE(state.positions.size() == 7);
-  for (std::size_t i = 1; i < 4; ++i) {
-    CHECK((state.positions[i] - state.positions[i + 3]).norm() > 1e-3);
-    CHECK(state.velocities[i] != state.velocities[i + 3]);
+  REQUIRE(state.positions.size() == 6);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK((state.positions[i + 3] - state.positions[i] - Vec2(40.0, 0.0)).norm() > 1e-3);
+    CHECK(state.velocities[i + 3] != state.velocities[i]);
   }
 }
 
