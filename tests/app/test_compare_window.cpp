@@ -160,7 +160,7 @@ TEST_CASE("Compare window: at most four gases; a removed one leaves the others")
 }
 
 TEST_CASE("Compare window: a screenshot has all scenes, and the film command films them") {
-  const GuiDriver driver("--until 1 --compare particles.restitution=0.5", "1280x1800");
+  const GuiDriver driver("--until 1 --compare particles.restitution=0.5", "1280x1840");
   const json still =
       driver.wait_for("status", 0, [](const json& status) { return halts_in_step(status, 2); });
   std::size_t told = driver.told();

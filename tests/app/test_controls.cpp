@@ -328,7 +328,7 @@ TEST_CASE("Window: trails appear with their slider, vanish with undo, and are sa
 }
 
 TEST_CASE("Window: the effect of a contact time is shown, and fields may come from snapshots") {
-  const GuiDriver driver("--set view.speed=10", "1280x1800");
+  const GuiDriver driver("--set view.speed=10", "1280x1840");
   std::size_t told = driver.told();
   driver.click("contact_time");
   const json few = driver.wait_for(

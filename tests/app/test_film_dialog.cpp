@@ -185,7 +185,7 @@ TEST_CASE("Film dialog: a mistake is named, and makes no film") {
 TEST_SUITE_BEGIN("window");
 
 TEST_CASE("Window: typed times and a typed name make the film") {
-  const GuiDriver driver("--until 3", "1280x1800");
+  const GuiDriver driver("--until 3", "1280x1840");
   driver.wait_for("status", 0, halted);
   driver.click("film");
   std::size_t told = driver.told();

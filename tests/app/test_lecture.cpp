@@ -259,7 +259,7 @@ TEST_CASE("Window: the tools of lecture mode: timeline, stopwatch, pen, plot and
 }
 
 TEST_CASE("Window: its size scales all texts at once, within the room of lecture mode") {
-  const GuiDriver driver("", "1280x1800");
+  const GuiDriver driver("", "1280x1840");
   const auto height = [&](const char* widget, std::size_t told) {
     return driver.place(widget, told)[3];
   };

@@ -46,7 +46,7 @@ TEST_CASE("Panels: the list of keys has each key beside its action") {
                "L lecture: large type, three sliders and a plot",
                "D K W lecture: pen, pointer with a trail, stopwatch",
                "F11 full screen",
-               "1 2 3 4 heat, cool, kick, throw a particle with the mouse",
+               "1 2 3 4 5 heat, cool, kick, throw, add particles with the mouse",
                "Esc close the open panel, end a tool, or deselect the particle",
                "Right or Shift + drag move the view",
                "Scroll F zoom about the cursor; fit the box",

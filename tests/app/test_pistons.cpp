@@ -92,11 +92,14 @@ TEST_CASE("Piston: check refuses a stroke at its place, and notes one beyond clo
   };
   CHECK(check_to("3.71").find("beyond the closest packing of 0.9069") != std::string::npos);
   CHECK(check_to("3.72").find("closest packing") == std::string::npos);
-  const Outcome jammed = shell.run(
-      "sed 's/piston = 14.0/piston = 3.0/; s/0.9/1.0/' piston.toml >jam.toml && "
-      "clatter measure jam.toml --quiet --until 7 --out jam.json");
+  // A column of four disks is 4 diameters high, or 3.6 in two rows 0.5 apart.
+  shell.write("jam.toml",
+              "box.size = [6.0, 3.5]\nparticles.count = 4\n"
+              "walls = { left.kind = 'static', right.kind = 'static', bottom.kind = 'static', "
+              "top.kind = 'static' }\nchange = [{ time = 1.0, piston = 1.4, until = 3.0 }]\n");
+  const Outcome jammed = shell.run("clatter measure jam.toml --quiet --until 4 --out jam.json");
   CHECK(jammed.code == 3);
-  CHECK(jammed.err.find("piston") != std::string::npos);
+  CHECK(jammed.err.find("the piston leaves the particles no room") != std::string::npos);
 }
 
 }  // namespace clatter

@@ -105,7 +105,7 @@ TEST_CASE("Window: changes that were given up for another scene come back with u
 }
 
 TEST_CASE("Window: the scene is restored as it was opened, and undo returns to the changes") {
-  const GuiDriver driver("--set particles.restitution=0.85", "1280x1800");
+  const GuiDriver driver("--set particles.restitution=0.85", "1280x1840");
   driver.drag("particles.restitution", 0.83, 0.5);
   const auto has = [](double low, double high) {
     return [=](const json& status) {
@@ -125,7 +125,7 @@ TEST_CASE("Window: the scene is restored as it was opened, and undo returns to t
 }
 
 TEST_CASE("Window: what it saves takes the place of no file") {
-  const GuiDriver driver("", "1280x1800");
+  const GuiDriver driver("", "1280x1840");
   driver.shell().run("echo kept | tee clatter-1.toml clatter-2.mp4 clatter-3.png clatter-4.csv");
   std::size_t told = driver.told();
   driver.key("ctrl+s");

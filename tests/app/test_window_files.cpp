@@ -32,7 +32,7 @@ TEST_CASE("Window: a screenshot equals the screen, and its scene plays it again"
 }
 
 TEST_CASE("Window: its film of a changed gas equals the film of the command that it shows") {
-  const GuiDriver driver("--set view.speed=4", "1280x1800");
+  const GuiDriver driver("--set view.speed=4", "1280x1840");
   driver.drag("particles.restitution", 0.88, 0.7);
   driver.drag("walls.left.drive_speed", 0.2, 0.4);
   driver.drag("walls.right.restitution", 0.9, 0.8);
@@ -58,7 +58,7 @@ TEST_CASE("Window: its film of a changed gas equals the film of the command that
 }
 
 TEST_CASE("Window: it closes while it films, and the film plays as far as it got") {
-  const GuiDriver driver("--set view.speed=0.5 --set particles.count=20", "1280x1800");
+  const GuiDriver driver("--set view.speed=0.5 --set particles.count=20", "1280x1840");
   driver.wait_for("status", 0, [](const json& status) { return status["time"] > 4.0; });
   driver.click("film");
   driver.click("film.make");

@@ -194,7 +194,7 @@ TEST_CASE("Puff: halts, a saved scene and a run continued at any event change no
   CHECK(again.simulation().state_hash() == whole.simulation().state_hash());
 }
 
-TEST_CASE("Puff: a run saved between the events and the puff of the same time has it to come") {
+TEST_CASE("Puff: a run saved just before or after the puff of its time makes it once") {
   const Scene scene = puffed();
   Scene first_part = scene;
   std::erase_if(first_part.changes,
@@ -205,6 +205,14 @@ TEST_CASE("Puff: a run saved between the events and the puff of the same time ha
   rest.run_until(6.0);
   whole.run_until(6.0);
   CHECK(rest.simulation().state_hash() == whole.simulation().state_hash());
+
+  for (const double time : {2.0, 3.3}) {
+    ScheduledRun<2> halted(scene, kPuffSeed);
+    halted.run_until(time);
+    ScheduledRun<2> after(scene, kPuffSeed, halted.simulation().save());
+    after.run_until(6.0);
+    CHECK(after.simulation().state_hash() == whole.simulation().state_hash());
+  }
 }
 
 TEST_CASE("Puff: time travel returns to the bits and the particles before and after it") {
