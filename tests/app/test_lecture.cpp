@@ -189,6 +189,8 @@ TEST_CASE("Window: lecture mode has the sliders of the scene, and one drives the
   CHECK(
       says(message["text"], "no control \"particles.restitutio\"; try \"particles.restitution\""));
   CHECK(driver.place("lecture.plot", told)[2] > 300.0);
+  const std::vector<double> caption = driver.place("lecture.caption", told);
+  CHECK(caption[2] > caption[3]);
   driver.drag("walls.left.drive_speed", 0.2, 0.8);
   const json set = driver.wait_for("set", told);
   CHECK(std::stod(set["keys"]["walls.left.drive_speed"].get<std::string>()) > 2.0);

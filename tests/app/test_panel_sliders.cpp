@@ -98,6 +98,7 @@ void check_sliders(const Scene& scene, const std::vector<SliderMeaning>& sliders
   for (const SliderMeaning& slider : sliders) {
     CAPTURE(slider.place);
     PanelDriver driver(scene, all_panels);
+    CHECK(says(text_of(driver), slider.line));
     const json before = settings(driver);
     auto [x, y, width, height] = driver.place(slider.key);
     const float middle = y + 0.5f * height;

@@ -345,6 +345,22 @@ TEST_CASE("Panels: the top bar of a narrow window keeps the title, play and rest
   CHECK(shown.gallery);
 }
 
+TEST_CASE("Panels: a hint in the top bar is on disks or on spheres") {
+  const auto hint_of = [](const Scene& scene) {
+    PanelVisibility shown{.hint = true};
+    PanelDriver driver(scene, [&](Session& session, Controls& controls) {
+      ImGui::SetNextWindowSize(ImVec2(1600.0f, 100.0f));
+      ImGui::Begin("wide");
+      top_bar(session, controls, shown, true);
+      ImGui::End();
+    });
+    driver.wait_for([](const Frame& frame) { return frame.run == 1; });
+    return text_of(driver);
+  };
+  CHECK(says(hint_of(uneven_disks()), "drag a slider · scroll to zoom"));
+  CHECK(says(hint_of(uneven_spheres()), "drag to turn · scroll to zoom"));
+}
+
 TEST_CASE("Panels: the top bar shows the time and sets the speed in steps of 1, 2, 5") {
   Scene scene = uneven_disks();
   scene.title = "Uneven";
