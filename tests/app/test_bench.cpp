@@ -497,6 +497,7 @@ TEST_CASE("Bench: a cell of the table of cores has the gas as a whole and in til
       "clatter bench cores --count 100000 --area-fraction 0.25 --threads 3 --json cores.json");
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
+  CHECK(outcome.err.starts_with("elastic disks, periodic box"));
   const json rows = json::parse(shell.read("cores.json"));
   std::vector<int> threads;
   for (const json& row : rows) {

@@ -160,9 +160,17 @@ TEST_CASE("Film dialog: lists and boxes set quality, format and content") {
   CHECK(shown.action == FilmDialog::Action::Cancel);
 }
 
-TEST_CASE("Film dialog: each widget is explained") {
+TEST_CASE("Film dialog: each widget has its name and is explained") {
   ShownDialog shown;
   shown.open({100.0, 2.0, true}, "no-such-film.webm");
+  const std::string text = text_of(shown.driver);
+  for (const char* names :
+       {"[ Whole run ] [ Last 20 s ] From { 0 } To { 100 } Speed { 2 } Length in s { 50 }",
+        "Pictures { 1280 x 720, 30 per second } Format { WebM, for web pages } File {",
+        "[ Film ] [ Copy command ] [ Cancel ]"}) {
+    CAPTURE(names);
+    CHECK(says(text, names));
+  }
   check_help(shown.driver, {{"film.whole", "From time 0"},
                             {"film.last", "The last seconds"},
                             {"film.from", "the first frame"},

@@ -8,8 +8,11 @@
 #include "app/view/top_bar.h"
 #include "app/view/unsaved_question.h"
 #include "tests/app/panel_actions.h"
+#include "tests/support/messages.h"
 
 namespace clatter {
+
+using testing::says;
 
 TEST_CASE("Tooltips: lists, boxes and buttons of the panels") {
   PanelDriver driver(uneven_disks(), all_panels);
@@ -106,8 +109,10 @@ TEST_CASE("Tooltips: comparisons, tools of the mouse and unsaved changes") {
                       {"tool.cool", "shrink by a tenth"},
                       {"tool.kick", "adds a velocity"},
                       {"tool.throw", "dragged from a particle"}});
+  CHECK(says(text_of(driver), "[ Heat ] [ Cool ] [ Kick ] [ Throw ]"));
   asks = true;
   for (int picture = 0; picture < 3; ++picture) driver.lines();
+  CHECK(says(text_of(driver), "Save the changes of the scene? [ Save ] [ Discard ] [ Cancel ]"));
   check_help(driver, {{"unsaved.save", "Writes the scene"},
                       {"unsaved.discard", "are lost"},
                       {"unsaved.cancel", "Keeps the gas"}});
