@@ -167,7 +167,7 @@ TEST_CASE("Film dialog: each widget has its name and is explained") {
   for (const char* names :
        {"[ Whole run ] [ Last 20 s ] From { 0 } To { 100 } Speed { 2 } Length in s { 50 }",
         "Pictures { 1280 x 720, 30 per second } Format { WebM, for web pages } File {",
-        "[ Film ] [ Copy command ] [ Cancel ]"}) {
+        "The scene is saved beside the film [ Film ] [ Copy command ] [ Cancel ]"}) {
     CAPTURE(names);
     CHECK(says(text, names));
   }

@@ -165,6 +165,9 @@ TEST_CASE("Playlist: each mistake is refused at its place") {
         Case{"schema = 1\nscenes = [{ seed = 1 }]", "list.toml:2:11: a scene has no name"},
         Case{"schema = 1\nscenes = [{ scene = \"cradle\", seeds = 1 }]",
              "list.toml:2:39: unknown key 'seeds'"},
+        Case{"schema = 1\nscenes = [{ scene = \"cradle\", seeds = 1 }]", "did you mean 'seed'?"},
+        Case{"schema = 1\nscenes = [{ scene = \"cradle\", colour = 1 }]",
+             "use scene, set and seed"},
         Case{"schema = 1\nscenes = [{ scene = \"cradle\", seed = -1 }]",
              "list.toml:2:38: 'seed' cannot be -1"},
         Case{"schema = 1\nscenes = [{ scene = \"vibrated\", set = { \"particles.count\" = -7 } "
