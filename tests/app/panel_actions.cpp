@@ -6,6 +6,7 @@
 
 #include "app/view/panels.h"
 #include "engine/scene/scene_file.h"
+#include "tests/support/messages.h"
 
 namespace clatter {
 
@@ -102,6 +103,18 @@ void choose(PanelDriver& driver, const std::string& key, const std::string& word
 void tick(PanelDriver& driver, const std::string& key) {
   const auto [x, y, width, height] = driver.place(key);
   driver.click(x + 0.5f * height, y + 0.5f * height);
+}
+
+void check_help(PanelDriver& driver,
+                const std::vector<std::pair<std::string, std::string>>& words_of_widgets) {
+  for (const auto& [widget, words] : words_of_widgets) {
+    const auto [x, y, width, height] = driver.place(widget);
+    driver.point_at(x + 0.5f * height, y + 0.5f * height);
+    const std::string tooltip = driver.lines().back();
+    CAPTURE(widget);
+    CAPTURE(tooltip);
+    CHECK(testing::says(tooltip, words));
+  }
 }
 
 void check_lines(const std::vector<std::string>& lines, const std::vector<std::string>& expected) {

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/scene/scene.h"
@@ -32,6 +33,9 @@ std::string text_of(PanelDriver& driver);
 void choose(PanelDriver& driver, const std::string& key, const std::string& word);
 /// Clicks a box to tick, or a button.
 void tick(PanelDriver& driver, const std::string& key);
+/// Points at widgets, and checks that each has a tooltip with these words.
+void check_help(PanelDriver& driver,
+                const std::vector<std::pair<std::string, std::string>>& words_of_widgets);
 /// Checks that the lines are equal.
 void check_lines(const std::vector<std::string>& lines, const std::vector<std::string>& expected);
 

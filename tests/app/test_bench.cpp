@@ -396,6 +396,11 @@ TEST_CASE("Bench: the table of the timeline has the time of jumps and the memory
   CHECK(outcome.code == 0);
   const json rows = json::parse(shell.read("t.json"));
   REQUIRE(rows.size() == 1);
+  check_columns(outcome.out, rows, "N median ms longest ms MB",
+                {{"count", " %.0f"},
+                 {"median_milliseconds", " %.2f"},
+                 {"longest_milliseconds", " %.2f"},
+                 {"record_megabytes", " %.2f"}});
   CHECK(rows[0]["count"] == 20);
   CHECK(rows[0]["median_milliseconds"] > 0.0);
   CHECK(rows[0]["longest_milliseconds"] >= rows[0]["median_milliseconds"]);
@@ -492,6 +497,7 @@ TEST_CASE("Bench: a cell of the table of cores has the gas as a whole and in til
       "clatter bench cores --count 100000 --area-fraction 0.25 --threads 3 --json cores.json");
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
+  CHECK(outcome.err.starts_with("elastic disks, periodic box"));
   const json rows = json::parse(shell.read("cores.json"));
   std::vector<int> threads;
   for (const json& row : rows) {
@@ -508,6 +514,12 @@ TEST_CASE("Bench: a cell of the table of cores has the gas as a whole and in til
     CHECK(row["busy"] <= 1.1);
   }
   CHECK(threads == std::vector<int>{0, 1, 2, 3});
+  check_columns(outcome.out, rows, "N phi threads Mcoll/s of whole busy redundant redone",
+                {{"million_collisions_per_second", " %.3f"},
+                 {"of_whole", " %.2f"},
+                 {"busy", " %.2f"},
+                 {"redundant", " %.2f"},
+                 {"redone", " %.3f"}});
   check_refused(shell, "clatter bench cores --count 2 --area-fraction 0.9",
                 {"--area-fraction", "no square box"});
 }

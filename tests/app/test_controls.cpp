@@ -274,6 +274,10 @@ TEST_CASE("Window: a narrow one has one sheet at a time below the gas") {
   const auto viewport = [&](std::size_t told) { return driver.place("viewport", told); };
   const std::vector<double> whole = viewport(0);
   CHECK(whole[2] == 480.0);
+  const std::vector<double> first = driver.place("sheet.run"), last = driver.place("sheet.lesson");
+  CHECK(first[0] < 20.0);
+  CHECK(last[0] + last[2] > 460.0);
+  CHECK(last[1] + last[3] > 780.0);
   std::size_t told = driver.told();
   driver.click("sheet.gas");
   const std::vector<double> half = viewport(told);

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <sstream>
 #include <thread>
@@ -110,6 +111,30 @@ TEST_CASE("Window: the gallery has the order of the list of scenes") {
     CHECK(card->second > above);
     above = card->second;
   }
+}
+
+TEST_CASE("Window: the pictures of the gallery are upright") {
+  const GuiDriver driver("");
+  driver.key("g");
+  const std::vector<double> card = driver.place("gallery.barometer");
+  // The mean brightness of a part of its picture, below the upper edge by this share of its height.
+  const auto brightness = [&](double down) {
+    const auto pixels = [](double length) { return std::to_string(std::lround(length)); };
+    const Outcome outcome = driver.run(
+        "ffmpeg -v error -f x11grab -draw_mouse 0 -video_size " + pixels(0.4 * card[3]) + 'x' +
+        pixels(0.2 * card[3]) + " -i $DISPLAY+" + pixels(card[0] + 0.4 * card[3]) + ',' +
+        pixels(card[1] + down * card[3]) +
+        " -frames:v 1 -vf scale=1:1:flags=area -pix_fmt gray -f rawvideo - </dev/null | od -An "
+        "-tu1");
+    return std::stoi(outcome.out);
+  };
+  // The first looks may be earlier than the picture.
+  int looks_in_a_row = 0;
+  for (int look = 0; look < 40 && looks_in_a_row < 5; ++look) {
+    const bool dense_below = brightness(0.65) > brightness(0.15) + 10;
+    looks_in_a_row = dense_below ? looks_in_a_row + 1 : 0;
+  }
+  CHECK(looks_in_a_row == 5);
 }
 
 TEST_SUITE_END();

@@ -165,6 +165,9 @@ TEST_CASE("Playlist: each mistake is refused at its place") {
         Case{"schema = 1\nscenes = [{ seed = 1 }]", "list.toml:2:11: a scene has no name"},
         Case{"schema = 1\nscenes = [{ scene = \"cradle\", seeds = 1 }]",
              "list.toml:2:39: unknown key 'seeds'"},
+        Case{"schema = 1\nscenes = [{ scene = \"cradle\", seeds = 1 }]", "did you mean 'seed'?"},
+        Case{"schema = 1\nscenes = [{ scene = \"cradle\", colour = 1 }]",
+             "use scene, set and seed"},
         Case{"schema = 1\nscenes = [{ scene = \"cradle\", seed = -1 }]",
              "list.toml:2:38: 'seed' cannot be -1"},
         Case{"schema = 1\nscenes = [{ scene = \"vibrated\", set = { \"particles.count\" = -7 } "
@@ -189,6 +192,8 @@ TEST_CASE("Window: lecture mode has the sliders of the scene, and one drives the
   CHECK(
       says(message["text"], "no control \"particles.restitutio\"; try \"particles.restitution\""));
   CHECK(driver.place("lecture.plot", told)[2] > 300.0);
+  const std::vector<double> caption = driver.place("lecture.caption", told);
+  CHECK(caption[2] > caption[3]);
   driver.drag("walls.left.drive_speed", 0.2, 0.8);
   const json set = driver.wait_for("set", told);
   CHECK(std::stod(set["keys"]["walls.left.drive_speed"].get<std::string>()) > 2.0);

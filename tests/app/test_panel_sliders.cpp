@@ -98,6 +98,7 @@ void check_sliders(const Scene& scene, const std::vector<SliderMeaning>& sliders
   for (const SliderMeaning& slider : sliders) {
     CAPTURE(slider.place);
     PanelDriver driver(scene, all_panels);
+    CHECK(says(text_of(driver), slider.line));
     const json before = settings(driver);
     auto [x, y, width, height] = driver.place(slider.key);
     const float middle = y + 0.5f * height;
@@ -169,8 +170,10 @@ TEST_CASE("Panels: a number of disks is set once its slider is let go") {
   driver.drag(x + 0.5f * width, y + 0.5f * height, x + 0.75f * width);
   CHECK(changes(before, settings(driver)) == Places{"/particles/count"});
   // Logarithmic, up to the largest number that fits.
-  CHECK(settings(driver).at("/particles/count") > 80);
-  CHECK(settings(driver).at("/particles/count") < 110);
+  const int count = settings(driver).at("/particles/count");
+  CHECK(count > 80);
+  CHECK(count < 110);
+  CHECK(says(text_of(driver), "Disks N " + std::to_string(count)));
 }
 
 }  // namespace clatter

@@ -4,6 +4,7 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/view/messages.h"
@@ -54,6 +55,15 @@ TEST_CASE("Panels: the list of keys has each key beside its action") {
                "Drag a wall resize the box; press just outside of it",
                "Drag the right wall a piston, while the gas plays; with Shift: resize",
                "Drop a file open a scene, or the scene in a picture"});
+}
+
+TEST_CASE("Panels: the list of keys for spheres has two lines more") {
+  PanelDriver disks(uneven_disks(), [](Session&, Controls&) { help_window(2, 1280.0f, 1800.0f); });
+  PanelDriver driver(uneven_disks(), [](Session&, Controls&) { help_window(3, 1280.0f, 1800.0f); });
+  std::vector<std::string> lines = disks.lines();
+  const auto place = std::ranges::find(lines, "Right or Shift + drag move the view");
+  lines.insert(place, {"Drag turn the view", "X Y Z I view along an axis, isometric view"});
+  check_lines(driver.lines(), lines);
 }
 
 TEST_CASE("Panels: every name is beside the value of its own key, in its unit") {
@@ -202,6 +212,29 @@ TEST_CASE("Panels: a picked sphere shows three components") {
                "speed 13.000", "spin -0.625, 0.500, 0.250",
                "last collision t = 11.5000, front wall", "next collision t = 12.2500, sphere 2",
                "double-click to follow", "V shows or hides its path"});
+}
+
+TEST_CASE("Panels: the label of a particle is beside it, on the side of the middle") {
+  Frame frame;
+  frame.snapshot.positions = Vec2(1.0, 2.0);
+  frame.snapshot.velocities = Vec2(3.0, 4.0);
+  for (const float x : {300.0f, 600.0f}) {
+    for (const float y : {300.0f, 600.0f}) {
+      CAPTURE(x);
+      CAPTURE(y);
+      ImVec2 low, high;
+      PanelDriver driver(Scene{}, [&](Session&, Controls&) {
+        particle_label(frame, 0, false, {x, y}, {{0.0f, 0.0f}, {900.0f, 900.0f}});
+        if (const ImGuiWindow* label = ImGui::FindWindowByName("particle")) {
+          low = label->Pos;
+          high = {low.x + label->Size.x, low.y + label->Size.y};
+        }
+      });
+      driver.lines();
+      CHECK((x < 450.0f ? low.x > x : high.x < x));
+      CHECK((y < 450.0f ? low.y > y : high.y < y));
+    }
+  }
 }
 
 TEST_CASE("Panels: the light of health is red after the run has stopped by itself") {
@@ -358,6 +391,22 @@ TEST_CASE("Panels: the top bar of a narrow window keeps the title, play and rest
   tick(driver, "gallery");
   driver.lines();
   CHECK(shown.gallery);
+}
+
+TEST_CASE("Panels: a hint in the top bar is on disks or on spheres") {
+  const auto hint_of = [](const Scene& scene) {
+    PanelVisibility shown{.hint = true};
+    PanelDriver driver(scene, [&](Session& session, Controls& controls) {
+      ImGui::SetNextWindowSize(ImVec2(1600.0f, 100.0f));
+      ImGui::Begin("wide");
+      top_bar(session, controls, shown, true);
+      ImGui::End();
+    });
+    driver.wait_for([](const Frame& frame) { return frame.run == 1; });
+    return text_of(driver);
+  };
+  CHECK(says(hint_of(uneven_disks()), "drag a slider · scroll to zoom"));
+  CHECK(says(hint_of(uneven_spheres()), "drag to turn · scroll to zoom"));
 }
 
 TEST_CASE("Panels: the top bar shows the time and sets the speed in steps of 1, 2, 5") {

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <regex>
 
 #include "tests/app/gui_driver.h"
@@ -63,6 +64,24 @@ TEST_CASE("Window: the table of bench window has the cost of its pictures") {
                                row["percentile_99_milliseconds"].get<double>()));
   CHECK(row["median_milliseconds"] > 0.0);
   CHECK(row["percentile_99_milliseconds"] >= row["median_milliseconds"]);
+}
+
+TEST_CASE("Window: steps of the wheel zoom out, and back in") {
+  const GuiDriver driver("");
+  // The distance between the handles of two walls, which are some pixels outside of the walls.
+  const auto width = [&](std::size_t told) {
+    const std::vector<double> left = driver.place("wall.left", told);
+    const std::vector<double> right = driver.place("wall.right", told);
+    return right[0] + 0.5 * right[2] - left[0] - 0.5 * left[2];
+  };
+  const double before = width(0);
+  driver.point_at("viewport");
+  std::size_t told = driver.told();
+  driver.tool("click --repeat 4 --delay 100 5 sleep 0.5");
+  CHECK(width(told) == doctest::Approx(before * std::pow(0.85, 4)).epsilon(0.05));
+  told = driver.told();
+  driver.tool("click --repeat 4 --delay 100 4 sleep 0.5");
+  CHECK(width(told) == doctest::Approx(before).epsilon(0.01));
 }
 
 TEST_CASE("Window: it quits amid a collapse") {
