@@ -108,8 +108,9 @@ TEST_CASE("Tooltips: comparisons, tools of the mouse and unsaved changes") {
                       {"tool.heat", "grow by a tenth"},
                       {"tool.cool", "shrink by a tenth"},
                       {"tool.kick", "adds a velocity"},
-                      {"tool.throw", "dragged from a particle"}});
-  CHECK(says(text_of(driver), "[ Heat ] [ Cool ] [ Kick ] [ Throw ]"));
+                      {"tool.throw", "dragged from a particle"},
+                      {"tool.add", "as many as find room"}});
+  CHECK(says(text_of(driver), "[ Heat ] [ Cool ] [ Kick ] [ Throw ] [ Add ]"));
   asks = true;
   for (int picture = 0; picture < 3; ++picture) driver.lines();
   CHECK(says(text_of(driver), "Save the changes of the scene? [ Save ] [ Discard ] [ Cancel ]"));
