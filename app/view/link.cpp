@@ -131,7 +131,7 @@ void require_fitting(const Scene& scene, Origin origin) {
     throw UserError({kFile}, "a link cannot name a file with a start state",
                     "give the scene another start");
   }
-  if (scene.particles.count > kMostInLink) {
+  if (final_count(scene) > kMostInLink) {
     throw UserError({kFile}, "a page opens at most " + std::to_string(kMostInLink) + " particles",
                     "use the program, or choose fewer");
   }

@@ -511,6 +511,8 @@ TEST_CASE("Bench: a cell of the table of cores has the gas as a whole and in til
     const bool tiles = row["threads"] > 0;
     CHECK((row["redundant"] > 0.0) == tiles);
     CHECK(row["redone"] < 0.5);
+    // Halos are copied in each window, and windows are rarely run again.
+    if (tiles) CHECK(row["redundant"] > row["redone"]);
     CHECK(row["busy"] <= 1.1);
   }
   CHECK(threads == std::vector<int>{0, 1, 2, 3});

@@ -56,6 +56,9 @@ TEST_CASE("Link: scenes that a page cannot open are refused") {
   CHECK(mistake_in("vibrated&box.size=[9e4,9e4]&particles.count=100001").find("at most 100000") !=
         std::string::npos);
   CHECK(mistake_in("vibrated&box.size=[9e4,9e4]&particles.count=100000") == "none");
+  CHECK(mistake_in("vibrated&box.size=[9e4,9e4]&particles.count=99999&change=[{time=1,"
+                   "puff={count=2,centre=[1,1],radius=9}}]")
+            .find("at most 100000") != std::string::npos);
   CHECK(mistake_in("scene=AAAA").find("damaged") != std::string::npos);
   CHECK(mistake_in("scene=*").find("damaged") != std::string::npos);
   CHECK_THROWS_AS(link_of(load_scene("cradle"), 1), UserError);

@@ -1,12 +1,14 @@
 // The texts of the window's panels: each name with the value of its own key.
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "app/view/lesson.h"
 #include "app/view/messages.h"
 #include "app/view/panels.h"
 #include "app/view/plot.h"
@@ -256,8 +258,25 @@ TEST_CASE("Panels: the light of health is red after the run has stopped by itsel
   session->play(true);
   driver.wait_for([](const Frame& frame) { return !frame.stop.empty(); });
   CHECK(says(reasons(), "inelastic collapse"));
+  const Frame& stopped = session->frame();
+  REQUIRE(stopped.deepest_overlap != std::fabs(stopped.ledger_residual));
+  CHECK(says(reasons(), fmt::format("Deepest overlap {:.1e} diameters", stopped.deepest_overlap)));
+  CHECK(says(reasons(), fmt::format("its ledger {:.1e}", stopped.ledger_residual)));
   session->restart();
   driver.wait_for([](const Frame& frame) { return frame.run == 2 && frame.stop.empty(); });
+}
+
+TEST_CASE("Panels: the strip of a lesson has its goal and its suggestion beside their names") {
+  Scene scene = default_scene(2);
+  scene.goal = "See the first.";
+  scene.try_this = "Drag the second.";
+  bool open = true;
+  PanelDriver driver(scene, [&](Session& session, Controls& controls) {
+    lesson_strip(session.scene(), {{0.0f, 0.0f}, {600.0f, 300.0f}}, controls, open);
+  });
+  const std::string text = text_of(driver);
+  CHECK(says(text, "Goal See the first."));
+  CHECK(says(text, "Try this Drag the second."));
 }
 
 TEST_CASE("Panels: the title gives way to the other widgets of the bar") {
