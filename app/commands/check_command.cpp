@@ -59,13 +59,13 @@ void print_events(const Scene& scene, double end) {
   std::fprintf(stderr, "; at the start temperature %g.\n", temperature);
 }
 
-void print_piston(const Scene& scene) {
+void print_packing(const Scene& scene) {
   const double most = compressed_fraction(scene), closest = closest_packing(scene.dimension());
   if (most <= closest) return;
   std::fprintf(
       stderr,
-      "The piston would compress the gas to a fraction of %.4f, beyond the closest packing "
-      "of %.4f; the run will stop there.\n",
+      "The changes would bring the gas to a fraction of %.4f, beyond the closest packing of %.4f; "
+      "the run will stop there.\n",
       most, closest);
 }
 
@@ -82,7 +82,7 @@ int check(const CommonOptions& options) {
   }
   std::fputs(".\n", stderr);
   print_events(scene, options.until.value_or(scene.measure.burn_in + scene.measure.duration));
-  print_piston(scene);
+  print_packing(scene);
   print_way(scene);
   print_parts(scene);
   return kOk;

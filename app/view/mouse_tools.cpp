@@ -137,7 +137,7 @@ void MouseTools::sliders(const Scene& scene, Controls& controls) {
                    .high = 200.0,
                    .logarithmic = true,
                    .format = "%.0f"},
-                  count_, MouseTools().count_);
+                  count_, kUsualCount);
   count_ = std::round(count_);
 }
 

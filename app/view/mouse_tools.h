@@ -100,9 +100,11 @@ class MouseTools {
   VecX velocity(const Frame& frame, const WindowMap& map) const;
   void draw_arrow(ImDrawList& list, const Frame& frame, const WindowMap& map, ImU32 ink) const;
 
+  static constexpr double kUsualCount = 20.0;
+
   std::optional<Tool> tool_;
   std::optional<double> radius_;  // absent: as usual for the box
-  double count_ = 20.0;           // particles that a click adds
+  double count_ = kUsualCount;    // particles that a click adds
   bool pressed_ = false;          // since the tool was chosen
   std::optional<Target> target_;  // absent: the mouse is elsewhere
   std::optional<Press> press_;    // while the button is down

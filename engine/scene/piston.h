@@ -31,8 +31,8 @@ struct PistonPlan {
 /// `time` and `position`.
 PistonPlan piston_plan(const std::vector<Change>& changes, double time, double position);
 
-/// Packing fraction with the piston at its innermost position among the scene's changes; that of
-/// the box without a stroke.
+/// Packing fraction after all puffs, with the piston at its innermost position among the scene's
+/// changes.
 double compressed_fraction(const Scene& scene);
 
 }  // namespace clatter

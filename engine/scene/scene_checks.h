@@ -19,8 +19,8 @@ void check_scene(const Scene& scene, const toml::table& root, const std::string&
 /// known.
 void check_followed(const Scene& scene, const toml::table& root, const std::string& file);
 
-/// Throws UserError if a change has neither laws nor a nudge nor a stroke of the piston, or if a
-/// nudge or a stroke is impossible. The scene's count must be known.
+/// Throws UserError if a change has neither laws nor a nudge, a puff or a stroke of the piston, or
+/// if one of these is impossible. The scene's count must be known.
 void check_change_tables(const Scene& scene, const toml::table& root, const std::string& file);
 
 /// The number of particles of the input. Throws UserError if both keys or none are given, if no

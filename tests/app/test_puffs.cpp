@@ -99,6 +99,15 @@ TEST_CASE("Puffs: check tells their particles, and a trajectory is refused") {
   const Outcome checked = shell.run("clatter check puffed.toml");
   CHECK(checked.err.find("50 spheres, volume fraction 0.0779; its changes add 12.") !=
         std::string::npos);
+  // Closest packing has 0.7405 * 336 / (pi / 6) = 475.2 spheres in this box.
+  const auto check_with = [&](const std::string& count) {
+    return shell
+        .run("clatter check puffed.toml --set 'change=[{ time = 1, puff = { count = " + count +
+             ", centre = [4, 4, 3], radius = 9 } }]'")
+        .err;
+  };
+  CHECK(check_with("426").find("beyond the closest packing of 0.7405") != std::string::npos);
+  CHECK(check_with("425").find("closest packing") == std::string::npos);
   const Outcome refused =
       shell.run(kMeasurePuffed + "--until 8 --trajectory frames.gsd --every 1 --out run.json");
   CHECK(refused.code == 2);
