@@ -41,9 +41,7 @@ bool remove_settings(std::vector<Change>& changes, int dimension) {
     removed += change.nudge.has_value();
     change.nudge.reset();
     removed += change.piston.has_value();
-    change.piston.reset();
     removed += change.puff.has_value();
-    change.puff.reset();
   }
   std::erase_if(changes, [](const Change& change) { return change.set.empty(); });
   return removed > 0;
