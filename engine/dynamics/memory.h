@@ -15,7 +15,7 @@ struct GasMemory {
   double total() const { return particles + spins + last_collisions; }
 };
 
-/// Estimated memory of the scene's simulation.
+/// Estimated memory of the scene's simulation, after all its puffs.
 GasMemory gas_memory(const Scene& scene);
 
 /// Throws UserError if gas_memory() exceeds the machine's memory, or if there are too many

@@ -86,7 +86,8 @@ class Measurement {
   /// Duration of the windows of averages.
   double window() const { return window_; }
 
-  /// All results up to the simulation's time, for a checkpoint.
+  /// All results up to the simulation's time, for a checkpoint; empty if the averages end where
+  /// they begin, so that they cannot continue.
   std::string save();
 
  private:

@@ -52,7 +52,7 @@ class Observables {
 /// The names of all tables that observables may have.
 std::vector<std::string> observable_tables();
 
-/// Upper estimate of the memory of the observables of a scene, in bytes.
+/// Upper estimate of the memory of the observables of a scene, in bytes, after all its puffs.
 double observables_memory(const Scene& scene);
 
 extern template class Observables<2>;

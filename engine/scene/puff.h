@@ -31,7 +31,7 @@ void check_puff(
     const Puff& puff, const Scene& scene,
     const std::function<Place(std::string_view key)>& place_of = [](auto) { return Place(); });
 
-/// Number of the scene's particles when one of its changes is made.
+/// Number of the scene's particles just before one of its changes, an index into Scene::changes.
 std::int64_t count_at(const Scene& scene, std::size_t change);
 /// Number of the scene's particles after all its puffs.
 std::int64_t final_count(const Scene& scene);

@@ -39,7 +39,6 @@ Scene puffed() {
 // A dilute periodic gas, just before and after a puff of 900 particles at t = 1.
 template <int D>
 struct Puffs {
-  static constexpr int kBefore = 20;
   static constexpr double kBox = D == 2 ? 400.0 : 90.0, kRadius = D == 2 ? 150.0 : 40.0;
   State<D> before, after;
 
@@ -62,7 +61,7 @@ struct Puffs {
   }
 };
 
-// Of 900 particles, with relative standard errors of 3 to 5 %. The widths are 5 standard errors.
+// Of 900 particles, with relative standard errors of 2 to 3 %. The widths are 5 standard errors.
 template <int D>
 void check_places_and_velocities() {
   const Puffs<D> puff;
