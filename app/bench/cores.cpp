@@ -64,12 +64,12 @@ CoresRate measure_rate(const Model<D>& model, const RunState<D>& start, double f
 // The rates of a gas as a whole and with up to `most` threads, from the same state.
 template <int D>
 std::vector<CoresRate> measure_gas(const Scene& scene, int most) {
-  constexpr std::uint64_t kEquilibration = 5;  // collisions of a pair per particle
+  constexpr std::uint64_t kEquilibration = 5, kMeasured = 10;  // collisions of a pair per particle
   const auto particles = static_cast<std::uint64_t>(scene.particles.count);
   const auto simulation = simulation_of<D>(scene, 1);
   simulation->use_threads(most);
   simulation->run_until(kNever, kEquilibration * particles);
-  const std::uint64_t batch = std::max<std::uint64_t>(2'000'000, 5 * particles);
+  const std::uint64_t batch = std::max<std::uint64_t>(2'000'000, kMeasured * particles);
   const RunState<D> start = simulation->save();
   const double fraction = scene.packing_fraction();
   std::vector<CoresRate> rates = {measure_rate<D>(simulation->model(), start, fraction, 0, batch)};

@@ -38,8 +38,7 @@ void print_parts(const Scene& scene) {
 
 void print_way(const Scene& scene) {
   const auto particles = static_cast<std::size_t>(scene.particles.count);
-  const bool kicked = scene.bulk_drive.has_value();
-  if (!runs_in_tiles(scene.dimension(), particles, kicked, processors())) return;
+  if (!runs_in_tiles(scene.dimension(), particles, processors())) return;
   std::fputs(watched_runs_in_tiles(processors())
                  ? "Runs in tiles on several threads; --threads 1 runs the gas as a whole.\n"
                  : "Runs as a whole on fewer than 4 threads; only films of elastic gases without "

@@ -189,7 +189,7 @@ void Simulation<D>::leave_tiles() {
 
 template <int D>
 void Simulation<D>::use_threads(int threads) {
-  if (!runs_in_tiles(D, particles().size(), model_.bulk_drive.has_value(), threads)) return;
+  if (!runs_in_tiles(D, particles().size(), threads)) return;
   const auto count = static_cast<double>(particles().size());
   const double fraction = count * packing_fraction(D, model_.diameter) / model_.box.prod();
   use_threads(threads, tile_sizes(particles().size(), fraction, threads));

@@ -299,11 +299,10 @@ TEST_CASE("Foresight: few threads run a gas in tiles only if it is not watched")
 }
 
 TEST_CASE("Foresight: gases run in tiles where tiles pay") {
-  CHECK(runs_in_tiles(2, 1'000'000, false, 2));
-  CHECK(!runs_in_tiles(2, 1'000'000, false, 1));
-  CHECK(!runs_in_tiles(2, 30'000, false, 16));
-  CHECK(!runs_in_tiles(2, 1'000'000, true, 2));
-  CHECK(!runs_in_tiles(3, 1'000'000, false, 2));
+  CHECK(runs_in_tiles(2, 1'000'000, 2));
+  CHECK(!runs_in_tiles(2, 1'000'000, 1));
+  CHECK(!runs_in_tiles(2, 30'000, 16));
+  CHECK(!runs_in_tiles(3, 1'000'000, 2));
   Simulation<2> small(periodic_box(20.0, 20.0), random_gas(periodic_box(20.0, 20.0), 100, 3));
   small.use_threads(8);
   CHECK(small.tiles() == 0);

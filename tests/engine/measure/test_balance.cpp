@@ -64,7 +64,7 @@ Vec<D> vector(double x, double y, double z = 0.0) {
   return Vec<3>(x, y, z).head<D>();
 }
 
-class BaseMoves : public Observer<2> {
+class BaseMoveCounter : public Observer<2> {
  public:
   int count = 0;
   void on_base_moved(double) override { ++count; }
@@ -264,7 +264,7 @@ TEST_CASE("Balance: closes with everything at once, at time 0 and at 1e9") {
 TEST_CASE("Balance: closes over windows in which the base moves") {
   const Model<2> model = falling(inelastic(between(kDriven, 1), 0.9), {0.1, -0.5});
   Watched<2> run(model, clear_gas(model, 12, 85), {9, 8});
-  BaseMoves moves;
+  BaseMoveCounter moves;
   run.simulation.add_observer(moves);
   for (int window = 1; window <= 5; ++window) {
     const int before = moves.count;
