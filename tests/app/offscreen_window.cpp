@@ -54,6 +54,11 @@ void OffscreenWindow::press(char letter) {
   draw();
 }
 
+void OffscreenWindow::press_key(int key) {
+  input_.press({.key = key});
+  draw();
+}
+
 std::array<float, 4> OffscreenWindow::place(const std::string& widget) const {
   const auto place = place_in(folder_ / "log", widget);
   CAPTURE(widget);

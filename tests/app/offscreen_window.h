@@ -22,6 +22,8 @@ class OffscreenWindow {
 
   /// Presses the key of a letter.
   void press(char letter);
+  /// Presses the key with this code of GLFW.
+  void press_key(int key);
   /// Clicks a widget with this name in the script log.
   void click(const std::string& widget);
   /// The rectangle of a widget as in the script log: left, top, width, height.

@@ -1,5 +1,7 @@
-// The texts of the whole window: its bars, sheets, plots and gallery, with their tooltips.
+// The whole window: the texts of its bars, sheets, plots and gallery, with their tooltips.
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <doctest/doctest.h>
 
 #include "engine/scene/scene_file.h"
@@ -111,6 +113,31 @@ TEST_CASE("Window texts: each button of a narrow window opens the sheet of its n
     window.click(sheet);
     CHECK(says(window.text("sheet/"), words));
   }
+}
+
+TEST_CASE("Window texts: the plot of lecture mode takes a third of the window, beside the gas") {
+  OffscreenWindow window(load_scene("conduction"), 1500.0f, 950.0f);
+  window.press('l');
+  const auto [left, top, width, height] = window.place("lecture.plot");
+  CHECK(width > 0.3f * 1500.0f);
+  CHECK(width < 0.4f * 1500.0f);
+  CHECK(left + width < 1500.0f);
+  CHECK(top + height < window.place("lecture.close")[1]);
+  const auto caption = window.place("lecture.caption");
+  CHECK(caption[2] > 10.0f * caption[3]);
+}
+
+TEST_CASE("Window texts: Esc closes the list of keys before the settings below it") {
+  OffscreenWindow window(load_scene("conduction"));
+  window.press('l');
+  window.click("lecture.settings");
+  window.press('h');
+  CHECK(says(window.text("help"), "Keys and mouse"));
+  window.press_key(GLFW_KEY_ESCAPE);
+  CHECK(window.text("help").empty());
+  CHECK_FALSE(window.text("lecture_settings").empty());
+  window.press_key(GLFW_KEY_ESCAPE);
+  CHECK(window.text("lecture_settings").empty());
 }
 
 }  // namespace clatter
