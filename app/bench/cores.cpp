@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "app/bench/engine.h"
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
 #include "app/system/process_usage.h"
@@ -84,12 +83,9 @@ std::vector<CoresRate> measure_gas(const Scene& scene, int most) {
   }
 }
 
-struct CoresCell {
-  int count;
-  double fraction;  // that the particles fill
-};
+}  // namespace
 
-std::vector<CoresCell> cells_of(const CoresTable& table) {
+std::vector<EngineCell> cores_cells(const CoresTable& table) {
   if (table.area_fraction) {
     if (!has_room(table.count, *table.area_fraction, 2)) {
       throw UserError({"--area-fraction", 0, 0},
@@ -98,23 +94,21 @@ std::vector<CoresCell> cells_of(const CoresTable& table) {
     }
     return {{table.count, *table.area_fraction}};
   }
-  std::vector<CoresCell> cells;
+  std::vector<EngineCell> cells;
   for (const int count : {100'000, 1'000'000, 10'000'000}) {
     if (table.count > 0 && count > table.count) continue;
     for (const double phi : {0.1, 0.3, table.dimension == 2 ? 0.5 : 0.45, 0.7}) {
-      if (has_room(count, phi, table.dimension)) cells.push_back({count, phi});
+      if (has_room(count, phi, table.dimension)) cells.emplace_back(count, phi);
     }
   }
   return cells;
 }
 
-}  // namespace
-
 int bench_cores(const std::string& json, const std::string& plot_file, const CoresTable& table) {
   if (!plot_file.empty()) require_writable_file(plot_file, "--plot");
   const int most = table.threads > 0 ? table.threads : processors();
   const bool disks = table.dimension == 2;
-  const std::vector<CoresCell> cells = cells_of(table);
+  const std::vector<EngineCell> cells = cores_cells(table);
   std::fprintf(stderr, "elastic %s, periodic box; Mcoll/s: 10^6 pair collisions per second\n",
                disks ? "disks" : "spheres");
   std::printf("%10s %6s %8s %9s %9s %6s %10s %7s\n", "N", "phi", "threads", "Mcoll/s", "of whole",
@@ -127,7 +121,7 @@ int bench_cores(const std::string& json, const std::string& plot_file, const Cor
             .x_name = "threads",
             .y_name = "million collisions per second",
             .panels = {}};
-  for (const auto [count, phi] : cells) {
+  for (const auto& [count, phi] : cells) {
     const Scene scene = elastic_gas(count, phi, table.dimension);
     const std::vector<CoresRate> rates = with_dimension(
         table.dimension, [&](auto dimension) { return measure_gas<dimension>(scene, most); });

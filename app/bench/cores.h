@@ -2,6 +2,9 @@
 
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "app/bench/engine.h"
 
 namespace clatter {
 
@@ -12,6 +15,10 @@ struct CoresTable {
   std::optional<double> area_fraction = {};  ///< of disks in the only cell; absent: all cells
   int threads = 0;  ///< largest number of threads; 0: the number of processors
 };
+
+/// The cells of the table, by number and then by fraction. Throws UserError if no box holds the
+/// only cell.
+std::vector<EngineCell> cores_cells(const CoresTable& table);
 
 /// Prints the collision rate of elastic particles in a periodic box, as a whole and in tiles on 1,
 /// 2, 4, ... threads. Writes the table to `json` and a plot to `plot`, unless these are empty.

@@ -193,7 +193,7 @@ FrameRange frames_asked_for(const RenderOptions& options, const FilmState& film)
   FrameRange frames = parse_frames(*options.frames);
   if (frames.begin >= film.times.count) {
     throw UserError({"--frames", 0, 0},
-                    "the film has " + std::to_string(film.times.count) + " frames",
+                    "the film has " + counted(static_cast<std::size_t>(film.times.count), "frame"),
                     "give a smaller FIRST, or a later --to");
   }
   frames.end = std::min(frames.end, film.times.count);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "engine/error.h"
+#include "engine/scene/text.h"
 
 namespace clatter {
 
@@ -19,8 +20,9 @@ long step_of(double number) {
 
 void refuse_frame(const std::filesystem::path& path, std::size_t frames) {
   if (frames == 0) throw UserError({path.string()}, "the file has no frame", "give another file");
-  throw UserError({path.string()}, "the file has " + std::to_string(frames) + " frames",
-                  "give --frame from 0 to " + std::to_string(frames - 1));
+  throw UserError({path.string()}, "the file has " + counted(frames, "frame"),
+                  frames == 1 ? "give --frame 0, or omit it"
+                              : "give --frame from 0 to " + std::to_string(frames - 1));
 }
 
 }  // namespace clatter

@@ -134,10 +134,8 @@ void Film<D>::add_cells(const std::vector<ComparedScene>& compared, const View& 
   }
 }
 
-// A single picture needs no film state; it is drawn again.
 template <int D>
 std::string Film<D>::state_now() {
-  if (state_.times.count == 1) return "";
   FilmState state = state_;
   state.shown = run_.scheduled().save_shown();
   if (plots_) state.plots = plots_->save();

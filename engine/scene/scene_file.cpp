@@ -84,10 +84,9 @@ int dimension_of(const toml::table& root) {
 void check_dimension(const toml::table& root, const std::string& file) {
   const toml::array* size = root.at_path("box.size").as_array();
   if (!size || size->size() == 2 || size->size() == 3) return;
-  throw UserError(
-      place_of(root, "box.size", file),
-      fmt::format("'box.size' has {} number{}", size->size(), size->size() == 1 ? "" : "s"),
-      "give two numbers for disks, or three for spheres");
+  throw UserError(place_of(root, "box.size", file),
+                  "'box.size' has " + counted(size->size(), "number"),
+                  "give two numbers for disks, or three for spheres");
 }
 
 SceneInput read_keys(const toml::table& root, const std::string& file, bool spins) {

@@ -46,8 +46,13 @@ static std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+std::string counted(std::size_t count, const std::string& thing) {
+  return std::to_string(count) + ' ' + thing + (count == 1 ? "" : "s");
+}
+
 std::string particle_numbers(int count) {
   if (count == 0) return "the scene has no particles";
+  if (count == 1) return "the only particle is number 0";
   return "particles are numbered from 0 to " + std::to_string(count - 1);
 }
 

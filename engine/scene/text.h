@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,6 +15,9 @@ std::string in_quotes(std::string_view text);
 
 /// A name of scenes and files for use in sentences: "heat flux x" for "heat_flux_x".
 std::string in_words(std::string_view name);
+
+/// A number of things: "1 frame", "2 frames".
+std::string counted(std::size_t count, const std::string& thing);
 
 /// The valid numbers of particles as an advice: "particles are numbered from 0 to 9".
 std::string particle_numbers(int count);

@@ -3,13 +3,12 @@
 #include <doctest/doctest.h>
 #include <imgui.h>
 
-#include <nlohmann/json.hpp>
-#include <optional>
 #include <sstream>
 #include <thread>
 
 #include "app/view/style.h"
 #include "render/layers/fonts.h"
+#include "tests/app/logged_widgets.h"
 
 namespace clatter {
 
@@ -60,25 +59,16 @@ std::vector<std::string> PanelDriver::lines() {
   return lines;
 }
 
-std::vector<nlohmann::json> PanelDriver::widgets() const {
-  std::vector<nlohmann::json> widgets;
-  std::istringstream log(bytes_of(folder_ / "log"));
-  for (std::string line; std::getline(log, line);) {
-    auto event = nlohmann::json::parse(line);
-    if (event.at("event") == "widget") widgets.push_back(std::move(event));
-  }
-  return widgets;
-}
-
 std::array<float, 4> PanelDriver::place(const std::string& widget) {
   draw();
-  std::optional<std::array<float, 4>> place;
-  for (const nlohmann::json& event : widgets()) {
-    if (event.at("name") == widget) place = event.at("place");
-  }
+  const auto place = place_in(folder_ / "log", widget);
   CAPTURE(widget);
   REQUIRE(place);
   return *place;
+}
+
+std::size_t PanelDriver::widgets_told() const {
+  return widgets_in(folder_ / "log").size();
 }
 
 void PanelDriver::point_at(float x, float y) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -27,7 +26,7 @@ class PanelDriver {
   /// The rectangle of a widget as in the script log: left, top, width, height.
   std::array<float, 4> place(const std::string& widget);
   /// Number of widgets in the script log so far.
-  std::size_t widgets_told() const { return widgets().size(); }
+  std::size_t widgets_told() const;
   /// Clicks at a position, or drags the mouse from there to another.
   void click(float x, float y) { drag(x, y, x); }
   void drag(float x, float y, float to_x);
@@ -40,7 +39,6 @@ class PanelDriver {
 
  private:
   void draw();
-  std::vector<nlohmann::json> widgets() const;
 
   testing::TemporaryFolder folder_;
   Worker worker_{60.0};

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "app/bench/cores.h"
 #include "app/bench/engine.h"
 #include "app/bench/features.h"
 #include "engine/scene/scene_file.h"
@@ -260,6 +261,7 @@ TEST_CASE("Bench: the table of features has a rate for each") {
     CHECK(row.at("rate_over_bare") > 0.4 * rate / bare);
     CHECK(row.at("rate_over_bare") < 2.5 * rate / bare);
   }
+  CHECK(table[0].at("feature") == "bare");
   CHECK(table[0].at("rate_over_bare") == 1.0);
 }
 
@@ -485,6 +487,7 @@ TEST_CASE("Bench: a cell of the engine's table for spheres, with its memory") {
                  {"bytes_per_sphere", " %.0f"}});
   CHECK(rows[0]["count"] == 100'000);
   CHECK(rows[0]["volume_fraction"] == 0.2);
+  CHECK(rows[0]["setup_seconds"] > 1e-3);
   if (!is_sanitized()) {
     CHECK(rows[0]["bytes_per_sphere"] > 200.0);
     CHECK(rows[0]["bytes_per_sphere"] < 500.0);
@@ -509,6 +512,7 @@ TEST_CASE("Bench: a cell of the table of cores has the gas as a whole and in til
     CHECK(rate > 0.0);
     CHECK(row["of_whole"].get<double>() == doctest::Approx(rate / whole).epsilon(1e-6));
     const bool tiles = row["threads"] > 0;
+    if (!tiles) CHECK(row["busy"] == 1.0);
     CHECK((row["redundant"] > 0.0) == tiles);
     CHECK(row["redone"] < 0.5);
     // Halos are copied in each window, and windows are rarely run again.
@@ -524,6 +528,23 @@ TEST_CASE("Bench: a cell of the table of cores has the gas as a whole and in til
                  {"redone", " %.3f"}});
   check_refused(shell, "clatter bench cores --count 2 --area-fraction 0.9",
                 {"--area-fraction", "no square box"});
+}
+
+TEST_CASE("Bench: the table of cores has large gases, up to the number asked for") {
+  using Cells = std::vector<EngineCell>;
+  const auto cells = [](int dimension, int count) {
+    return cores_cells({.dimension = dimension, .count = count});
+  };
+  const Cells disks = {{100'000, 0.1}, {100'000, 0.3}, {100'000, 0.5}, {100'000, 0.7}};
+  CHECK(cells(2, 100'000) == disks);
+  CHECK(cells(3, 999'999) ==
+        Cells{{100'000, 0.1}, {100'000, 0.3}, {100'000, 0.45}, {100'000, 0.7}});
+  const Cells all = cells(2, 0);
+  REQUIRE(all.size() == 12);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    CHECK(all[k].first == (k < 4 ? 1e5 : k < 8 ? 1e6 : 1e7));
+    CHECK(all[k].second == disks[k % 4].second);
+  }
 }
 
 TEST_CASE("Bench: a fraction that no box holds is refused under the flag that gave it") {

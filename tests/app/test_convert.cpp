@@ -233,6 +233,9 @@ TEST_CASE("Convert: malformed text files are refused with the line") {
   shell.write("b.xyz", good + good);
   check_refused(shell, "clatter convert b.xyz --frame 2 out.csv",
                 {"b.xyz: the file has 2 frames; give --frame from 0 to 1"});
+  shell.write("one.xyz", good);
+  check_refused(shell, "clatter convert one.xyz --frame 1 out.csv",
+                {"one.xyz: the file has 1 frame; give --frame 0, or omit it"});
   check_refused(shell, "clatter convert none.xyz out.csv", {"none.xyz: there is no such file"});
   check_refused(shell, "clatter convert b.xyz b.xyz",
                 {"b.xyz is the file that this command reads"});

@@ -43,6 +43,15 @@ Outcome film_into_second_piece(const Shell& shell, const std::string& act,
       act);
 }
 
+// An ffmpeg in the folder no-join that does not join pieces.
+void write_failing_join(const Shell& shell) {
+  shell.run("mkdir no-join");
+  shell.write("no-join/ffmpeg",
+              "#!/bin/sh\ncase \"$*\" in *'-f concat'*) echo 'no room' >&2; exit 1 ;; esac\n"
+              "PATH=${PATH#*:} exec ffmpeg \"$@\"\n");
+  shell.run("chmod +x no-join/ffmpeg");
+}
+
 void check_goes_on_to_whole(const Shell& shell) {
   CHECK(shell.run(kFilm + "--out film.mp4 --resume film.checkpoint && cmp film.mp4 whole").code ==
         0);
@@ -177,11 +186,7 @@ TEST_CASE("Film parts: a lock that is released soon does not refuse a film") {
 TEST_CASE("Film parts: a film that could not be joined is resumed to the same bytes") {
   const Shell shell;
   write_scene(shell);
-  shell.run("mkdir no-join");
-  shell.write("no-join/ffmpeg",
-              "#!/bin/sh\ncase \"$*\" in *'-f concat'*) echo 'no room' >&2; exit 1 ;; esac\n"
-              "PATH=${PATH#*:} exec ffmpeg \"$@\"\n");
-  shell.run("chmod +x no-join/ffmpeg");
+  write_failing_join(shell);
   REQUIRE(shell.run(kFilm + "--out film.mp4 && mv film.mp4 whole").code == 0);
   const Outcome failed =
       shell.run("PATH=$PWD/no-join:$PATH " + kFilm + "--out film.mp4 --checkpoint film.checkpoint");
@@ -215,6 +220,21 @@ TEST_CASE("Film parts: a film that could not be joined is resumed to the same by
         shell, kFilm + "--out film.mp4 --resume film.checkpoint --set particles.restitution=0.8",
         {"film.mp4.part/000000.mp4 is not the piece that was drawn; draw the film again"});
   }
+}
+
+TEST_CASE("Film parts: a film of one frame that could not be joined is resumed to the same bytes") {
+  const Shell shell;
+  write_scene(shell);
+  write_failing_join(shell);
+  const std::string film =
+      "clatter render scene.toml --size 160x120 --fps 10 --quiet --speed 1 --from 3 --to 3.1 "
+      "--out film.mp4 ";
+  REQUIRE(shell.run(film + "&& mv film.mp4 whole").code == 0);
+  const Outcome failed = shell.run("PATH=$PWD/no-join:$PATH " + film);
+  CHECK(says(failed.err, "no room; earlier pictures are in film.mp4.part; continue with --resume"));
+  const Outcome resumed = shell.run(film + "--resume film.checkpoint && cmp film.mp4 whole");
+  CAPTURE(resumed.err);
+  CHECK(resumed.code == 0);
 }
 
 // The pictures of the first film fit into the pipe to the encoder, those of the second do not.

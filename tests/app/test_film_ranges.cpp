@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "app/runs/film_ranges.h"
 #include "tests/app/shell.h"
@@ -38,6 +40,25 @@ double range_of(const Shell& shell, const std::string& frame, double time) {
 }
 
 }  // namespace
+
+TEST_CASE("Film ranges: gases share the extents of their common quantities, each of its own kind") {
+  std::vector<View> views(2);
+  const auto shared = [&] {
+    std::vector<std::array<double, 3>> numbers;
+    for (const RangeEnds& ends : shared_extents({{1.0, 20.0, 300.0}, {4.0, 10.0, 200.0}}, views)) {
+      numbers.push_back({ends.disks, ends.field, ends.arrows});
+    }
+    return numbers;
+  };
+  using Extents = std::vector<std::array<double, 3>>;
+  CHECK(shared() == Extents{{4.0, 20.0, 300.0}, {4.0, 20.0, 300.0}});
+  views[1].colour_by = ColourBy::VelocityX;
+  CHECK(shared() == Extents{{1.0, 20.0, 300.0}, {4.0, 20.0, 300.0}});
+  views[0].field = Quantity::Density;
+  CHECK(shared() == Extents{{1.0, 20.0, 300.0}, {4.0, 10.0, 300.0}});
+  views[1].arrows = Quantity::HeatFlux;
+  CHECK(shared() == Extents{{1.0, 20.0, 300.0}, {4.0, 10.0, 200.0}});
+}
 
 TEST_CASE("Film ranges: the end moves to the next round number by a factor of 2 in half a second") {
   constexpr double kFps = 10.0;  // five steps in half a second

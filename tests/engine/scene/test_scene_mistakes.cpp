@@ -54,6 +54,8 @@ TEST_CASE("Scene file: mistakes are reported with their place and a fix") {
        "s.toml:4:1: the camera's time 1 comes after 1; give each time once, in order"},
       {kParticles + "[view]\ncamera = [{ follow = 10 }]\n",
        "s.toml:4:1: there is no particle 10 to follow; particles are numbered from 0 to 9"},
+      {"particles.count = 1\nview.camera = [{ follow = 1 }]\n",
+       "s.toml:2:6: there is no particle 1 to follow; the only particle is number 0"},
       {"particles.count = 0\nview.camera = [{ follow = 0 }]\n",
        "s.toml:2:6: there is no particle 0 to follow; the scene has no particles"},
       {"particles.count = 0\nchange = [{ time = 1, nudge = { particle = 3, add = [1, 0] } }]\n",

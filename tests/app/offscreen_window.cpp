@@ -1,0 +1,122 @@
+#include "tests/app/offscreen_window.h"
+
+#include <doctest/doctest.h>
+#include <imgui.h>
+
+#include <chrono>
+#include <thread>
+
+#include "tests/app/logged_widgets.h"
+#include "tests/support/drawn_text.h"
+#include "tests/support/messages.h"
+
+namespace clatter {
+
+// A desktop without clipboard, files and devices.
+class OffscreenWindow::NoDesktop final : public Host {
+ public:
+  float content_scale() const override { return 1.0f; }
+  float least_target() const override { return 0.0f; }
+  void set_title(const std::string&) override {}
+  void copy(const std::string&) override {}
+  void toggle_full_screen() override {}
+  void close() override {}
+  bool has_user_files() const override { return true; }
+  void deliver(const std::string&) override {}
+  std::string link_to(const std::string& fragment) const override { return fragment; }
+  bool has_processes() const override { return true; }
+  ScreenRecorder* recorder() override { return nullptr; }
+  Loudspeaker* loudspeaker() override { return nullptr; }
+};
+
+OffscreenWindow::OffscreenWindow(const Scene& scene, float width, float height)
+    : desktop_(std::make_unique<NoDesktop>()), log_(folder_ / "log") {
+  ImGui::GetIO().DisplaySize = ImVec2(width, height);
+  gui_ = std::make_unique<Gui>(*desktop_, gl_->gl(), input_, worker_, log_);
+  gui_->open(scene, 1, 0.0);
+  for (int look = 0; look < 2000 && !place_in(folder_ / "log", "viewport"); ++look) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    gui_->draw();
+  }
+  place("viewport");
+  draw();
+}
+
+OffscreenWindow::~OffscreenWindow() = default;
+
+// Panels settle within this number of pictures.
+void OffscreenWindow::draw() {
+  for (int picture = 0; picture < 4; ++picture) gui_->draw();
+}
+
+void OffscreenWindow::press(char letter) {
+  input_.press({.key = letter - 'a' + 'A', .letter = letter});
+  draw();
+}
+
+void OffscreenWindow::press_key(int key) {
+  input_.press({.key = key});
+  draw();
+}
+
+std::array<float, 4> OffscreenWindow::place(const std::string& widget) const {
+  const auto place = place_in(folder_ / "log", widget);
+  CAPTURE(widget);
+  REQUIRE(place);
+  return *place;
+}
+
+void OffscreenWindow::point_at(const std::string& widget) {
+  const auto [left, top, width, height] = place(widget);
+  ImGui::GetIO().MousePos = ImVec2(left + 0.5f * std::min(width, height), top + 0.5f * height);
+  draw();
+}
+
+void OffscreenWindow::click(const std::string& widget) {
+  point_at(widget);
+  for (const bool down : {true, false}) {
+    ImGui::GetIO().MouseDown[0] = down;
+    // An early second click would be a double click.
+    ImGui::GetIO().DeltaTime = 1.0f;
+    draw();
+  }
+}
+
+std::string OffscreenWindow::text(const std::string& part) const {
+  std::string text;
+  const ImDrawData& data = *ImGui::GetDrawData();
+  for (int k = 0; k < data.CmdListsCount; ++k) {
+    const ImDrawList& list = *data.CmdLists[k];
+    if (!std::string(list._OwnerName).starts_with(part)) continue;
+    for (const auto& drawn : testing::texts_in(list)) {
+      text += (text.empty() ? "" : " ") + drawn.text;
+    }
+  }
+  return text;
+}
+
+bool OffscreenWindow::comes_to_say(const std::string& part, const std::string& words) {
+  for (int look = 0; look < 2000; ++look) {
+    if (testing::says(text(part), words)) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    gui_->draw();
+  }
+  return false;
+}
+
+std::string OffscreenWindow::tooltip(const std::string& widget) {
+  point_at(widget);
+  return text("##Tooltip");
+}
+
+void OffscreenWindow::check_help(
+    const std::vector<std::pair<std::string, std::string>>& words_of_widgets) {
+  for (const auto& [widget, words] : words_of_widgets) {
+    const std::string found = tooltip(widget);
+    CAPTURE(widget);
+    CAPTURE(found);
+    CHECK(testing::says(found, words));
+  }
+}
+
+}  // namespace clatter
