@@ -40,7 +40,7 @@ void print_way(const Scene& scene) {
   const auto particles = static_cast<std::size_t>(scene.particles.count);
   if (!runs_in_tiles(scene.dimension(), particles, processors())) return;
   std::fputs(watched_runs_in_tiles(processors())
-                 ? "Runs in tiles on several threads; --threads 1 runs the gas as a whole.\n"
+                 ? "Runs in tiles on several threads.\n"
                  : "Runs as a whole on fewer than 4 threads; only films of elastic gases without "
                    "heatmaps and trails run in tiles.\n",
              stderr);

@@ -77,6 +77,7 @@ FilmState new_film(const RenderOptions& options, const View& view, double start)
   film.shutter = options.shutter.value_or(0.0);
   film.transparent = options.transparent;
   film.overlay = view.overlay && !options.no_overlay;
+  film.picture = options.one_picture();
   if (options.sound) film.sound.emplace();
   film.times = {options.from.value_or(start), options.speed.value_or(view.speed),
                 options.fps.value_or(preset_fps(options, quality)), 1, view.pace};
@@ -154,6 +155,14 @@ FilmState continued_film(const RenderOptions& options, FilmState film) {
   return film;
 }
 
+// A picture with the averages and plots of an earlier part of the run.
+FilmState with_averages(FilmState picture, const FilmState& earlier) {
+  picture.shown = earlier.shown;
+  picture.plots = earlier.plots;
+  picture.companions = earlier.companions;
+  return picture;
+}
+
 void require_few_windows(const View& view, double last) {
   constexpr double kMaxWindows = 1e7;
   const bool averages = view.shows_averages() || std::ranges::any_of(view.plots, is_profile);
@@ -168,11 +177,17 @@ FilmState film_asked_for(const RenderOptions& options, const View& view,
                          const std::optional<Resumed>& resumed) {
   if (!resumed) return new_film(options, view, 0.0);
   const std::optional<FilmState> film = film_of(*resumed);
-  const bool goes_on =
-      film && !options.one_picture() && options.from.value_or(film->times.from) == film->times.from;
-  if (!goes_on) return new_film(options, view, resumed->time());
-  require_same_view(*resumed);
-  return continued_film(options, *film);
+  const bool goes_on = film && !film->picture && !options.one_picture() &&
+                       options.from.value_or(film->times.from) == film->times.from;
+  if (goes_on) {
+    require_same_view(*resumed);
+    return continued_film(options, *film);
+  }
+  const FilmState next = new_film(options, view, resumed->time());
+  const bool has_averages = film && next.picture && has_same_view(*resumed) &&
+                            film->times.speed == next.times.speed &&
+                            film->largest_exposure() == next.largest_exposure();
+  return has_averages ? with_averages(next, *film) : next;
 }
 
 FilmState restarted(FilmState film) {

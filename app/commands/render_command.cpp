@@ -103,8 +103,6 @@ int film_run(const RenderOptions& options, const std::vector<ComparedScene>& sce
   const int threads = options.threads.value_or(processors());
   run.scheduled().use_threads(threads);
   Film<D> filming(run, scenes, view, film, threads, context->gl());
-  // A picture is drawn again. A film from its checkpoint is another one.
-  if (options.one_picture()) run.film_state = nullptr;
   const auto sink = open_sink(options.out, sink_options(options, scenes, film, frames));
   bool drawn = false;
   {

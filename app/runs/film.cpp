@@ -43,9 +43,9 @@ static void visit(Archive& io, CellState& state) {
 
 template <class Archive>
 static void visit(Archive& io, FilmState& state) {
-  auto& [times, size, samples, shutter, transparent, overlay, sound, next, begin, shown, plots,
-         checksums, notes, cells, companions] = state;
-  io(times, size, samples, shutter, transparent, overlay, sound, next, begin, shown, plots,
+  auto& [times, size, samples, shutter, transparent, overlay, picture, sound, next, begin, shown,
+         plots, checksums, notes, cells, companions] = state;
+  io(times, size, samples, shutter, transparent, overlay, picture, sound, next, begin, shown, plots,
      checksums, notes, cells, companions);
 }
 

@@ -51,6 +51,7 @@ struct FilmState {
   double shutter = 0.0;            ///< exposure as a share of the time between two frames
   bool transparent = false;        ///< without a background
   bool overlay = true;             ///< whether pictures have text
+  bool picture = false;            ///< one picture, at times.from; not a film
   std::optional<FilmSound> sound;  ///< absent: a silent film
   long next = 0;                   ///< number of the next frame
   std::optional<long> begin;       ///< of the part in progress; absent: none

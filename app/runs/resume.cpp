@@ -78,9 +78,17 @@ void require_same_measure(const Resumed& resumed) {
   }
 }
 
+static bool is_of_view(const KeyDifference& difference) {
+  return difference.key.starts_with("view.") && difference.key != "view.speed";
+}
+
+bool has_same_view(const Resumed& resumed) {
+  return std::ranges::none_of(resumed.differences, is_of_view);
+}
+
 void require_same_view(const Resumed& resumed) {
   for (const KeyDifference& key : resumed.differences) {
-    if (!key.key.starts_with("view.") || key.key == "view.speed") continue;
+    if (!is_of_view(key)) continue;
     refuse(resumed, key, "keep the value for this film, or begin another film with --from");
   }
 }

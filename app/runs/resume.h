@@ -30,6 +30,9 @@ std::optional<Resumed> resume(const CommonOptions& common, const CheckpointOptio
 /// Throws UserError if [measure] of the scene differs from the averages in the checkpoint.
 void require_same_measure(const Resumed& resumed);
 
+/// Whether [view] of the scene is that of the checkpoint. The speed may differ.
+bool has_same_view(const Resumed& resumed);
+
 /// Throws UserError if [view] of the scene differs from the film in the checkpoint. The speed may
 /// differ.
 void require_same_view(const Resumed& resumed);

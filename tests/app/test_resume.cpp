@@ -93,6 +93,38 @@ TEST_CASE("Resume: an interrupted run leaves a checkpoint beside its result and 
 }
 
 // The picture has 16384 samples along a side, which takes seconds of CPU time.
+TEST_CASE("Resume: a picture has the averages, plots and gases from before its checkpoint") {
+  const Shell shell;
+  const std::string render = "clatter render vibrated --size 320x240 --quiet ";
+  const std::string view = render +
+                           "--set view.field=temperature --set view.window=5 "
+                           "--set 'view.plots=[\"temperature\"]' "
+                           "--compare particles.restitution=0.7 ";
+  REQUIRE(shell.run(view + "--to 20 --out whole.png").code == 0);
+  std::string first = view;
+  SUBCASE("of a picture") {
+    first += "--to 17 --out first.png ";
+  }
+  SUBCASE("of a film") {
+    first += "--to 17 --fps 1 --out frames ";
+  }
+  REQUIRE(shell.run(first + "--checkpoint c").code == 0);
+  CHECK(shell.run(view + "--to 20 --out again.png --resume c && cmp again.png whole.png").code ==
+        0);
+  // Another view has new averages, from the checkpoint on.
+  const std::string other = view + "--set view.field=density --to 20 ";
+  REQUIRE(shell.run(other + "--out other.png").code == 0);
+  CHECK(shell.run(other + "--out new.png --resume c && cmp -s other.png new.png").code == 1);
+}
+
+TEST_CASE("Resume: a film from the checkpoint of a picture begins there") {
+  const Shell shell;
+  const std::string render = "clatter render vibrated --size 160x120 --quiet --fps 2 --speed 1 ";
+  REQUIRE(shell.run(render + "--to 4 --out first.png --checkpoint c").code == 0);
+  REQUIRE(shell.run(render + "--to 6 --out frames --resume c").code == 0);
+  CHECK(shell.run("ls frames | wc -l").out == "4\n");
+}
+
 TEST_CASE("Resume: an interrupt ends a large picture while it is drawn") {
   const Shell shell;
   const Outcome outcome = shell.run(

@@ -301,6 +301,7 @@ TEST_CASE("Foresight: few threads run a gas in tiles only if it is not watched")
 TEST_CASE("Foresight: gases run in tiles where tiles pay") {
   CHECK(runs_in_tiles(2, 1'000'000, 2));
   CHECK(!runs_in_tiles(2, 1'000'000, 1));
+  CHECK(runs_in_tiles(2, 10'000'000, 1));
   CHECK(!runs_in_tiles(2, 30'000, 16));
   CHECK(!runs_in_tiles(3, 1'000'000, 2));
   Simulation<2> small(periodic_box(20.0, 20.0), random_gas(periodic_box(20.0, 20.0), 100, 3));
