@@ -23,8 +23,8 @@ static constexpr double kGrowth = 1.5;
 // Measured on two cores. Spheres have about one copy for each own particle: 10^6 at phi = 0.3 have
 // half the rate of the whole.
 bool runs_in_tiles(int dimension, std::size_t particles, int threads) {
-  constexpr std::size_t kLeast = 200'000;
-  return dimension == 2 && threads > 1 && particles >= kLeast;
+  constexpr std::size_t kLeast = 100'000, kLeastAlone = 10'000'000;
+  return dimension == 2 && particles >= (threads > 1 ? kLeast : kLeastAlone);
 }
 
 // Measured for N = 250,000 and 10^6 at phi = 0.5: two threads take up to 1.2 times as long as the
@@ -61,14 +61,10 @@ Foresight<D>::Foresight(const Model<D>& model, const Boundary<D>& boundary, std:
   const double volume = model.box.prod() / count;  // of a particle
   edge_ = std::pow(sizes.particles * volume, 1.0 / D);
   const double block = std::pow(kInBlock * volume, 1.0 / D);
+  tile_counts_ = count_tiles(threads);
   int blocks = 1;
   for (int axis = 0; axis < D; ++axis) {
     const double side = model.box[axis];
-    int tiles = std::max(1, static_cast<int>(std::lround(side / edge_)));
-    // Halos must have room to grow before they meet across a periodic border.
-    const double room = 0.5 * (side - side / tiles) - 2.0 * model.diameter;
-    if (model.periodic(axis) && room < kGrowth * halo_) tiles = 1;
-    tile_counts_[axis] = tiles;
     block_counts_[axis] = std::max(tile_counts_[axis], static_cast<int>(side / block));
     block_widths_[axis] = side / block_counts_[axis];
     cut_[axis] = tile_counts_[axis] > 1 ? 1.0 : 0.0;
@@ -87,6 +83,25 @@ Foresight<D>::Foresight(const Model<D>& model, const Boundary<D>& boundary, std:
     }
   }
   for (int k = 0; k < threads; ++k) benches_.push_back(std::make_unique<Bench>(model, boundary));
+}
+
+// The numbers of tiles along the axes.
+template <int D>
+IntVec<D> Foresight<D>::count_tiles(int threads) const {
+  IntVec<D> counts;
+  int longest = 0;
+  for (int axis = 0; axis < D; ++axis) {
+    const double side = model_.box[axis];
+    counts[axis] = std::max(1, static_cast<int>(std::lround(side / edge_)));
+    // Halos must have room to grow before they meet across a periodic border.
+    const double room = 0.5 * (side - side / counts[axis]) - 2.0 * model_.diameter;
+    if (model_.periodic(axis) && room < kGrowth * halo_) counts[axis] = 1;
+    if (counts[axis] > counts[longest]) longest = axis;
+  }
+  // One more along an axis may give all threads the same number of tiles.
+  IntVec<D> more = counts;
+  ++more[longest];
+  return counts.prod() % threads != 0 && more.prod() % threads == 0 ? more : counts;
 }
 
 template <int D>
@@ -437,7 +452,8 @@ template <int D>
 void Foresight<D>::fit_halo() {
   std::vector<double> lacks;
   for (const Tile& tile : tiles_) lacks.push_back(tile.lack);
-  const auto place = lacks.begin() + static_cast<std::ptrdiff_t>(29 * (lacks.size() - 1) / 30);
+  const auto place =
+      lacks.begin() + static_cast<std::ptrdiff_t>((29 * (lacks.size() - 1) + 29) / 30);
   std::nth_element(lacks.begin(), place, lacks.end());
   constexpr double kSlowly = 0.1;
   const double wanted = halo_ + (*place > 0.0 ? 1.0 : kSlowly) * *place;

@@ -156,6 +156,7 @@ class Foresight {
     std::vector<std::uint32_t> offsets;
   };
 
+  IntVec<D> count_tiles(int threads) const;
   std::size_t in_parallel(std::size_t count, const std::function<void(std::size_t, Bench&)>& work,
                           const StopRequest& stop = {});
   double choose_end(const ParticleStates<D>& gas, double horizon, double most) const;
