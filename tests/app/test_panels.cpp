@@ -277,6 +277,9 @@ TEST_CASE("Panels: the strip of a lesson has its goal and its suggestion beside 
   const std::string text = text_of(driver);
   CHECK(says(text, "Goal See the first."));
   CHECK(says(text, "Try this Drag the second."));
+  const auto close = driver.place("close_lesson");
+  CHECK(close[0] > 550.0f);
+  CHECK(close[0] + close[2] <= 600.0f);
 }
 
 TEST_CASE("Panels: the title gives way to the other widgets of the bar") {
