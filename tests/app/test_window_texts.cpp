@@ -87,6 +87,7 @@ TEST_CASE("Window texts: the plots and their choices") {
 
 TEST_CASE("Window texts: the strip of the timeline and the group of the window") {
   OffscreenWindow window(load_scene("conduction"));
+  CHECK(window.text("left").starts_with("Gas Box View Record "));
   CHECK(window.text("timeline") == "0.00");
   window.check_help({{"collision_back", "Previous collision (Shift + , )"},
                      {"back", "Play backwards (B)"},
