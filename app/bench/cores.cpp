@@ -17,7 +17,6 @@
 #include "engine/publish/scheduled_run.h"
 #include "engine/system/write_file.h"
 #include "render/context/context.h"
-#include "render/layers/plot.h"
 
 namespace clatter {
 
@@ -104,6 +103,16 @@ std::vector<EngineCell> cores_cells(const CoresTable& table) {
   return cells;
 }
 
+Plot empty_cores_plot(int dimension) {
+  return {.title = "Collision rate on several threads",
+          .caption = fmt::format("Elastic {} in a periodic box; the smallest number of threads: "
+                                 "the gas as a whole",
+                                 dimension == 2 ? "disks" : "spheres"),
+          .x_name = "threads",
+          .y_name = "million collisions per second",
+          .panels = {}};
+}
+
 int bench_cores(const std::string& json, const std::string& plot_file, const CoresTable& table) {
   if (!plot_file.empty()) require_writable_file(plot_file, "--plot");
   const int most = table.threads > 0 ? table.threads : processors();
@@ -114,13 +123,7 @@ int bench_cores(const std::string& json, const std::string& plot_file, const Cor
   std::printf("%10s %6s %8s %9s %9s %6s %10s %7s\n", "N", "phi", "threads", "Mcoll/s", "of whole",
               "busy", "redundant", "redone");
   Json rows = Json::array();
-  Plot plot{.title = "Collision rate on several threads",
-            .caption = fmt::format("Elastic {} in a periodic box; the smallest number of threads: "
-                                   "the gas as a whole",
-                                   disks ? "disks" : "spheres"),
-            .x_name = "threads",
-            .y_name = "million collisions per second",
-            .panels = {}};
+  Plot plot = empty_cores_plot(table.dimension);
   for (const auto& [count, phi] : cells) {
     const Scene scene = elastic_gas(count, phi, table.dimension);
     const std::vector<CoresRate> rates = with_dimension(

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/bench/engine.h"
+#include "render/layers/plot.h"
 
 namespace clatter {
 
@@ -19,6 +20,9 @@ struct CoresTable {
 /// The cells of the table, by number and then by fraction. Throws UserError if no box holds the
 /// only cell.
 std::vector<EngineCell> cores_cells(const CoresTable& table);
+
+/// The plot of the table for disks or spheres, without panels.
+Plot empty_cores_plot(int dimension);
 
 /// Prints the collision rate of elastic particles in a periodic box, as a whole and in tiles on 1,
 /// 2, 4, ... threads. Writes the table to `json` and a plot to `plot`, unless these are empty.

@@ -19,7 +19,6 @@
 #include "engine/system/platform.h"
 #include "engine/system/write_file.h"
 #include "render/context/context.h"
-#include "render/layers/plot.h"
 
 namespace clatter {
 
@@ -40,16 +39,6 @@ bool has_room(int count, double fraction, int dimension) {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// One cell of the engine's table.
-struct EngineRate {
-  int count;
-  double fraction;            // of the area or volume that particles fill
-  double rate;                // millions of pair collisions per CPU second, best of three
-  double setup_seconds;       // CPU time to build the start state and the simulation
-  double bytes_per_particle;  // peak resident size minus the size before the state was built; NaN:
-                              // too little for the heap of the process
-};
 
 // Equilibrates for a number of collisions per particle.
 template <int D>
@@ -129,7 +118,9 @@ Json print_inhomogeneous(int count) {
   return json;
 }
 
-void plot_growth(const std::string& file, const std::vector<EngineRate>& rates) {
+}  // namespace
+
+Plot growth_plot(const std::vector<EngineRate>& rates) {
   Plot plot{.title = "Collision rate of the engine",
             .caption = "Elastic disks in a periodic box, one core, by area fraction phi",
             .x_name = "number of disks",
@@ -144,11 +135,8 @@ void plot_growth(const std::string& file, const std::vector<EngineRate>& rates) 
     plot.panels.back().points.push_back(
         {static_cast<double>(rate.count), rate.rate, fmt::format("{:.2f}", rate.rate), false});
   }
-  const auto context = open_context(Backend::Auto);
-  write_png(file, plot_image(context->gl(), plot, {1600, 1000}, kLightTheme));
+  return plot;
 }
-
-}  // namespace
 
 std::vector<Inhomogeneous> inhomogeneous_gases(int count) {
   constexpr double kMeanAreaFraction = 0.1;
@@ -214,7 +202,10 @@ int bench_growth(const std::string& json, const std::string& plot, int count) {
     rows.push_back(std::move(row));
   }
   if (!json.empty()) write_file(json, rows.dump(1) + "\n");
-  if (!plot.empty()) plot_growth(plot, rates);
+  if (!plot.empty()) {
+    const auto context = open_context(Backend::Auto);
+    write_png(plot, plot_image(context->gl(), growth_plot(rates), {1600, 1000}, kLightTheme));
+  }
   return kOk;
 }
 

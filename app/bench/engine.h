@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "render/layers/plot.h"
 
 namespace clatter {
 
@@ -31,6 +32,17 @@ using EngineCell = std::pair<int, double>;
 /// The rows of the engine's table, in order.
 std::vector<EngineCell> engine_cells(const EngineTable& table);
 
+/// A measured cell of the engine's table.
+struct EngineRate {
+  int count = 0;
+  double fraction = 0.0;       ///< of the area or volume that particles fill
+  double rate = 0.0;           ///< millions of pair collisions per CPU second, best of three
+  double setup_seconds = 0.0;  ///< CPU time to build the start state and the simulation
+  /// Peak resident size minus the size before the state was built; NaN: too little for the heap of
+  /// the process.
+  double bytes_per_particle = 0.0;
+};
+
 /// Prints the collision rate of elastic particles in a periodic box, by number and by the fraction
 /// that they fill. Writes the table also to `json`, unless it is empty. Returns the exit code.
 int bench_engine(const std::string& json, const EngineTable& table);
@@ -45,6 +57,10 @@ struct Inhomogeneous {
 
 /// The gases with clusters, of `count` disks each.
 std::vector<Inhomogeneous> inhomogeneous_gases(int count);
+
+/// The plot of rates by the number of disks, with a panel for each area fraction. Rates of the same
+/// fraction are neighbours.
+Plot growth_plot(const std::vector<EngineRate>& rates);
 
 /// Prints the dependence of this rate on the number of disks: 100 to 4 million at phi = 0.5, and
 /// 100,000 at other phi from 0.01 to 0.88. A `count` other than 0 limits the number. Writes the

@@ -547,6 +547,35 @@ TEST_CASE("Bench: the table of cores has large gases, up to the number asked for
   }
 }
 
+TEST_CASE("Bench: the plot of cores names its gas and its axes") {
+  const Plot plot = empty_cores_plot(2);
+  CHECK(plot.title == "Collision rate on several threads");
+  CHECK(plot.caption ==
+        "Elastic disks in a periodic box; the smallest number of threads: the gas as a whole");
+  CHECK(plot.x_name == "threads");
+  CHECK(plot.y_name == "million collisions per second");
+  CHECK(says(empty_cores_plot(3).caption, "Elastic spheres in"));
+}
+
+TEST_CASE("Bench: the plot of growth has the rates of each fraction over the number") {
+  const Plot plot = growth_plot({{.count = 100, .fraction = 0.1, .rate = 2.346},
+                                 {.count = 1000, .fraction = 0.1, .rate = 2.0},
+                                 {.count = 100, .fraction = 0.7, .rate = 1.5}});
+  CHECK(plot.title == "Collision rate of the engine");
+  CHECK(plot.caption == "Elastic disks in a periodic box, one core, by area fraction phi");
+  CHECK(plot.x_name == "number of disks");
+  CHECK(plot.y_name == "million collisions per CPU second");
+  REQUIRE(plot.panels.size() == 2);
+  CHECK(plot.panels[0].title == "phi = 0.1");
+  CHECK(plot.panels[1].title == "phi = 0.7");
+  REQUIRE(plot.panels[0].points.size() == 2);
+  CHECK(plot.panels[1].points.size() == 1);
+  const PlotPoint& first = plot.panels[0].points[0];
+  CHECK(first.x == 100.0);
+  CHECK(first.y == 2.346);
+  CHECK(first.label == "2.35");
+}
+
 TEST_CASE("Bench: a fraction that no box holds is refused under the flag that gave it") {
   const Shell shell;
   for (const std::string flag : {"--area-fraction 0.9", "--volume-fraction 0.74"}) {

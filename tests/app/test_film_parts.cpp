@@ -117,6 +117,8 @@ TEST_CASE("Film parts: a resumed film keeps the flags it began with, and refuses
   check_refused(shell, on + "--out film --set view.field=density", {"view.field", "--from"});
   check_refused(shell, on + "--out film --frames 10:30", {"--frames", "60"});
   check_refused(shell, on + "--out film --frames 150:160", {"--frames", "150"});
+  check_refused(shell, "clatter render scene.toml --to 0 --out still --frames 1:2",
+                {"--frames", "the film has 1 frame;"});
   check_refused(shell, on + "--out film --frames 7", {"--frames", "FIRST:END"});
   check_refused(shell, on + "--out other.mp4", {"other.mp4", "000000.mp4", "--frames 60:"});
   CHECK(shell.run(on + "--out film").code == 0);

@@ -64,6 +64,10 @@ TEST_CASE("Link: scenes that a page cannot open are refused") {
   CHECK(mistake_in("scene=*").find("damaged") != std::string::npos);
   CHECK(testing::says(testing::refusal_of([] { link_of(load_scene("cradle"), 1); }),
                       "a link cannot hold a start state; save the scene instead"));
+  // The compressed text: particles.start={layout='file',file='a.csv'}
+  CHECK(testing::says(
+      mistake_in("scene=eNorSCwqyUzOSS3WKy4BMm2rcxIr80tLbNXTMnNS1XVApK16ol5ycZl6LRcAkO0QXg"),
+      "a link cannot name a file with a start state; give the scene another start"));
   // A file of the machine is never read.
   CHECK(mistake_in("vibrated&particles.start.file=/dev/zero") != "none");
 }

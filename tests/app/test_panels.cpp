@@ -6,6 +6,7 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "app/view/lesson.h"
@@ -239,25 +240,40 @@ TEST_CASE("Panels: the label of a particle is beside it, on the side of the midd
   }
 }
 
-TEST_CASE("Panels: the light of health is red after the run has stopped by itself") {
+TEST_CASE("Panels: the light of health is green, and red after the run has stopped by itself") {
   Session* session = nullptr;
+  std::array<float, 4> light = {};
+  Colour colour;  // of the last opaque corner in the light
   PanelVisibility shown;
   Scene scene = load_scene("collapse");
   scene.contact_time.reset();
   PanelDriver driver(scene, [&](Session& of, Controls& controls) {
     session = &of;
     top_bar(of, controls, shown, true);
+    const auto [x, y, width, height] = light;
+    for (const ImDrawVert& corner : ImGui::GetWindowDrawList()->VtxBuffer) {
+      const auto channel = [&](int shift) {
+        return static_cast<std::uint8_t>(corner.col >> shift & 255u);
+      };
+      if (channel(IM_COL32_A_SHIFT) == 255 && corner.pos.x > x && corner.pos.x < x + width &&
+          corner.pos.y > y && corner.pos.y < y + height) {
+        colour = {channel(IM_COL32_R_SHIFT), channel(IM_COL32_G_SHIFT), channel(IM_COL32_B_SHIFT)};
+      }
+    }
   });
   const auto reasons = [&] {
-    const auto [x, y, width, height] = driver.place("health");
+    light = driver.place("health");
+    const auto [x, y, width, height] = light;
     driver.point_at(x + 0.5f * width, y + 0.5f * height);
     return text_of(driver);
   };
   CHECK_FALSE(says(reasons(), "inelastic collapse"));
+  CHECK(colour.green > std::max(colour.red, colour.blue));
   session->set_speed(1e6);
   session->play(true);
   driver.wait_for([](const Frame& frame) { return !frame.stop.empty(); });
   CHECK(says(reasons(), "inelastic collapse"));
+  CHECK(colour.red > 2 * std::max(colour.green, colour.blue));
   const Frame& stopped = session->frame();
   REQUIRE(stopped.deepest_overlap != std::fabs(stopped.ledger_residual));
   CHECK(says(reasons(), fmt::format("Deepest overlap {:.1e} diameters", stopped.deepest_overlap)));
@@ -277,6 +293,9 @@ TEST_CASE("Panels: the strip of a lesson has its goal and its suggestion beside 
   const std::string text = text_of(driver);
   CHECK(says(text, "Goal See the first."));
   CHECK(says(text, "Try this Drag the second."));
+  const auto close = driver.place("close_lesson");
+  CHECK(close[0] > 550.0f);
+  CHECK(close[0] + close[2] <= 600.0f);
 }
 
 TEST_CASE("Panels: the title gives way to the other widgets of the bar") {

@@ -85,8 +85,17 @@ TEST_CASE("Window texts: the plots and their choices") {
   window.check_help({{"plots.differences", "minus that of the first one"}});
 }
 
+TEST_CASE("Window texts: the list of the observables, explained") {
+  OffscreenWindow window(load_scene("conduction", {{"measure.observables", "[\"probe\"]"}}));
+  if (window.text("plots").empty()) window.press('p');
+  window.press_key(GLFW_KEY_SPACE);
+  CHECK(window.comes_to_say("plots", "Observable probe, series"));
+  window.check_help({{"plots.observable", "A table of measure.observables"}});
+}
+
 TEST_CASE("Window texts: the strip of the timeline and the group of the window") {
   OffscreenWindow window(load_scene("conduction"));
+  CHECK(window.text("left").starts_with("Gas Box View Record "));
   CHECK(window.text("timeline") == "0.00");
   window.check_help({{"collision_back", "Previous collision (Shift + , )"},
                      {"back", "Play backwards (B)"},
