@@ -99,7 +99,9 @@ TEST_CASE("Compare films: parts from checkpoints, and a resumed film, are the fi
   write_film_scene(shell,
                    ", plots = [\"temperature\", \"velocities\", \"density_profile\"], "
                    "pace = [{ time = 2.0, factor = 1.0 }, { time = 3.0, factor = 0.5 }]");
-  REQUIRE(shell.run(kComparison + "--out whole && " + kComparison + "--sound --out whole.mkv").code == 0);
+  REQUIRE(
+      shell.run(kComparison + "--out whole && " + kComparison + "--sound --out whole.mkv").code ==
+      0);
   for (const std::string part : {"--frames 0:37 --checkpoint c", "--frames 37: --resume c"}) {
     CAPTURE(part);
     const Outcome outcome = shell.run(kComparison + "--out parts " + part);

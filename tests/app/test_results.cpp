@@ -183,9 +183,12 @@ TEST_CASE("Results: each number about the run itself has its own key") {
   measured.residuals = made_up_residuals<2>();
   measured.residuals->equations[1][3] = 200.0;
   measured.residuals->equations[2][4] = -400.0;
-  const json result = result_json(
-      scene, 17, simulation, measured,
-      {.cpu_seconds = 2.5, .wall_seconds = 3.25, .collisions = 40, .peak_memory_bytes = 96, .tiles = 6});
+  const json result = result_json(scene, 17, simulation, measured,
+                                  {.cpu_seconds = 2.5,
+                                   .wall_seconds = 3.25,
+                                   .collisions = 40,
+                                   .peak_memory_bytes = 96,
+                                   .tiles = 6});
   CHECK(result.at("schema") == 1);
   CHECK(result.at("seed") == 17);
   CHECK(result.at("program") == "clatter " CLATTER_VERSION);
