@@ -36,7 +36,7 @@ bool watched_runs_in_tiles(int threads) {
 TileSizes tile_sizes(std::size_t particles, double fraction, int threads) {
   constexpr double kTilesPerThread = 4.0;
   constexpr double kHaloOfFraction = 4.5;  // measured at 0.1 and 0.3
-  constexpr double kDilute = 0.2;
+  constexpr double kDilute = 0.2;          // measured at 0.1 and 0.3
   TileSizes sizes;
   if (fraction < kDilute) sizes.collisions = 1.5;
   sizes.halo = std::max(sizes.halo, kHaloOfFraction / fraction);
@@ -98,9 +98,10 @@ IntVec<D> Foresight<D>::count_tiles(int threads) const {
     if (model_.periodic(axis) && room < kGrowth * halo_) counts[axis] = 1;
     if (counts[axis] > counts[longest]) longest = axis;
   }
-  // One more along an axis may give all threads the same number of tiles.
+  // One more along an axis may give all threads the same number of tiles. An axis that is not cut
+  // may lack the room.
   IntVec<D> more = counts;
-  ++more[longest];
+  if (counts[longest] > 1) ++more[longest];
   return counts.prod() % threads != 0 && more.prod() % threads == 0 ? more : counts;
 }
 
@@ -452,8 +453,7 @@ template <int D>
 void Foresight<D>::fit_halo() {
   std::vector<double> lacks;
   for (const Tile& tile : tiles_) lacks.push_back(tile.lack);
-  const auto place =
-      lacks.begin() + static_cast<std::ptrdiff_t>((29 * (lacks.size() - 1) + 29) / 30);
+  const auto place = lacks.begin() + static_cast<std::ptrdiff_t>(29 * lacks.size() / 30);
   std::nth_element(lacks.begin(), place, lacks.end());
   constexpr double kSlowly = 0.1;
   const double wanted = halo_ + (*place > 0.0 ? 1.0 : kSlowly) * *place;

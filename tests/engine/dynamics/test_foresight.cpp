@@ -302,11 +302,17 @@ TEST_CASE("Foresight: gases run in tiles where tiles pay") {
   CHECK(runs_in_tiles(2, 1'000'000, 2));
   CHECK(!runs_in_tiles(2, 1'000'000, 1));
   CHECK(runs_in_tiles(2, 10'000'000, 1));
-  CHECK(!runs_in_tiles(2, 30'000, 16));
+  CHECK(runs_in_tiles(2, 100'000, 2));
+  CHECK(!runs_in_tiles(2, 99'999, 16));
   CHECK(!runs_in_tiles(3, 1'000'000, 2));
   Simulation<2> small(periodic_box(20.0, 20.0), random_gas(periodic_box(20.0, 20.0), 100, 3));
   small.use_threads(8);
   CHECK(small.tiles() == 0);
+  // A periodic box without room for halos has no tiles, whatever the number of threads.
+  for (const int threads : {1, 2, 3}) {
+    small.use_threads(threads, {.particles = 25.0, .collisions = 2.0, .halo = 10.0});
+    CHECK(!small.foresight());
+  }
 }
 
 TEST_CASE("Certificate: each term counts") {
