@@ -4,7 +4,9 @@
 
 #include "engine/dynamics/neighbour_lists.h"
 
+#include <bit>
 #include <cstring>
+#include <limits>
 #include <numbers>
 
 #include "engine/dynamics/prefetch.h"
@@ -13,14 +15,18 @@ namespace clatter {
 
 // Distance of centres at contact in diameters, with a margin that exceeds any rounding.
 static constexpr double kContact = 1.01;
-// Measured best for N = 4000 and volume fractions from 0.4 to 0.5: the mean number of neighbours,
-// and the distance of a particle behind the centre of its new region, in radii.
-static constexpr double kWanted = 12.0;
+// Measured best at a volume fraction of 0.49: the mean number of neighbours, and the distance of a
+// particle behind the centre of its new region, in radii.
+static constexpr double kWanted = 11.0;
 static constexpr double kLead = 0.4;
 // A region shrinks or grows if its list is longer or shorter.
 static constexpr std::size_t kLong = 17, kShort = 9;
 static constexpr double kShrink = 0.85, kGrow = 1.1;
 static constexpr double kMinRadius = 0.02;  // diameters
+// Blocks that are compared between two visits of their particles: one bit each.
+static constexpr int kBatch = 32;
+// The coordinate of a place without a particle.
+static constexpr float kFar = std::numeric_limits<float>::infinity();
 
 // Radius of the regions of an evenly spread gas in which a particle has kWanted neighbours.
 template <int D>
@@ -59,18 +65,20 @@ NeighbourLists<D>::NeighbourLists(const Model<D>& model, double particles)
     counts_[axis] = static_cast<int>(std::max(1.0, cells));
     widths_[axis] = box_[axis] / counts_[axis];
     const auto count = static_cast<std::uint32_t>(counts_[axis]);
+    const bool periodic = model.periodic(axis);
     auto& steps = steps_[axis];
-    steps.resize(count + 2);
-    for (std::uint32_t cell = 0; cell < count; ++cell) steps[cell + 1].index = cell * stride;
-    if (model.periodic(axis)) {
-      const int shift = kParticleBits<D> + 2 * axis;
-      steps.front() = {steps[count].index, Neighbour{0b11} << shift};
-      steps.back() = {steps[1].index, Neighbour{0b01} << shift};
+    for (std::uint32_t step = 0; step < count + 2; ++step) {
+      steps.push_back({(periodic ? (step + count - 1) % count : step) * stride, 0});
     }
-    stride *= count;
+    if (periodic) {
+      const int shift = kParticleBits<D> + 2 * axis;
+      steps.front().wrap = Neighbour{0b11} << shift;
+      steps.back().wrap = Neighbour{0b01} << shift;
+    }
+    stride *= periodic ? count : count + 2;  // the cells in a wall stay empty
   }
   blocks_.resize(stride);
-  found_.resize(64);
+  further_.resize(2 * kCells);
 }
 
 template <int D>
@@ -82,7 +90,7 @@ template <int D>
 std::uint32_t NeighbourLists<D>::first_block(const IntVec<D>& cell) const {
   std::uint32_t block = 0;
   for (int axis = 0; axis < D; ++axis) {
-    block += steps_[axis][static_cast<std::size_t>(cell[axis]) + 1].index;
+    block += steps_[axis][static_cast<std::size_t>(cell[axis]) + 1].block;
   }
   return block;
 }
@@ -96,21 +104,23 @@ std::uint32_t NeighbourLists<D>::new_block() {
 }
 
 template <int D>
+NeighbourLists<D>::Block::Block() {
+  centres.fill(Floats{} + kFar);
+}
+
+template <int D>
 void NeighbourLists<D>::put_in_cell(std::uint32_t particle) {
   const Region& region = regions_[particle];
   const IntVec<D> cell = cell_at(region.centre);
   std::uint32_t at = first_block(cell);
-  std::size_t place = 0;
-  while (blocks_[at].particles[place] != kNobody) {
-    if (++place < kFour) continue;
-    place = 0;
-    if (blocks_[at].next == kNone) {
-      const std::uint32_t added = new_block();  // may move blocks_
-      blocks_[at].next = added;
-    }
-    at = blocks_[at].next;
+  while (blocks_[at].next != kNone) at = blocks_[at].next;
+  if (blocks_[at].count == kFour) {
+    const std::uint32_t added = new_block();  // may move blocks_
+    blocks_[at].next = added;
+    at = added;
   }
   Block& block = blocks_[at];
+  const std::uint32_t place = block.count++;
   for (int axis = 0; axis < D; ++axis) {
     const double from_corner = region.centre[axis] - cell[axis] * widths_[axis];
     block.centres[axis][place] = static_cast<float>(from_corner);
@@ -125,53 +135,25 @@ void NeighbourLists<D>::take_from_cell(std::uint32_t particle) {
   Block* block = &blocks_[first_block(cell_at(regions_[particle].centre))];
   Block* before = nullptr;
   Block* holder = nullptr;
-  std::size_t place = 0;
+  std::uint32_t place = 0;
   for (;; before = block, block = &blocks_[block->next]) {
-    for (std::size_t k = 0; k < kFour; ++k) {
+    for (std::uint32_t k = 0; k < block->count; ++k) {
       if (block->particles[k] != particle) continue;
       holder = block;
       place = k;
     }
     if (block->next == kNone) break;
   }
-  std::size_t last = kFour - 1;
-  while (block->particles[last] == kNobody) --last;
+  const std::uint32_t last = --block->count;
   for (int axis = 0; axis < D; ++axis) {
     holder->centres[axis][place] = block->centres[axis][last];
+    block->centres[axis][last] = kFar;
   }
   holder->radii[place] = block->radii[last];
   holder->particles[place] = block->particles[last];
-  block->particles[last] = kNobody;
   if (last > 0 || !before) return;
   spare_blocks_.push_back(before->next);
   before->next = kNone;
-}
-
-// Adds the particles of a cell whose regions are near to found_. `centre` is the centre of the
-// particle's region, from the corner of the cell.
-template <int D>
-[[gnu::always_inline]] inline void NeighbourLists<D>::find_in_cell(
-    std::uint32_t at, Neighbour wrap, const std::array<Floats, D>& centre, Floats reach,
-    std::uint32_t particle) {
-  for (; at != kNone; at = blocks_[at].next) {
-    const Block& block = blocks_[at];
-    Floats square{};
-    for (int axis = 0; axis < D; ++axis) {
-      const Floats way = block.centres[axis] - centre[axis];
-      square += way * way;
-    }
-    const Floats limit = block.radii + reach;
-    const Ints near = square < limit * limit;
-    std::array<std::int64_t, 2> any;
-    std::memcpy(any.data(), &near, sizeof any);
-    if ((any[0] | any[1]) == 0) continue;
-    if (count_ + kFour > found_.size()) found_.resize(2 * found_.size());
-    for (std::size_t k = 0; k < kFour; ++k) {
-      const std::uint32_t other = block.particles[k];
-      found_[count_] = other | wrap;
-      count_ += (near[k] != 0) & (other != kNobody) & (other != particle);
-    }
-  }
 }
 
 template <int D>
@@ -179,44 +161,111 @@ void NeighbourLists<D>::prefetch_search(std::uint32_t particle) const {
   const IntVec<D> cell = cell_at(regions_[particle].centre);
   for (int k = 0; k < kCells; ++k) {
     std::uint32_t block = 0;
-    bool exists = true;
     for (int axis = 0, digits = k; axis < D; ++axis, digits /= 3) {
-      const Step& step = steps_[axis][static_cast<std::size_t>(cell[axis] + digits % 3)];
-      block += step.index;
-      exists = exists && step.index != kNone;
+      block += steps_[axis][static_cast<std::size_t>(cell[axis] + digits % 3)].block;
     }
-    if (exists) prefetch(blocks_[block]);
+    prefetch(blocks_[block]);
   }
 }
 
+// A number whose bit k is set.
+static std::int32_t bit_of(std::size_t k) {
+  return static_cast<std::int32_t>(std::uint32_t{1} << k);
+}
+
+// Which particles of a block have regions near a centre; lanes are 0 or -1. `centre` is measured
+// from the corner of the cell. Notes the block that continues this one.
+template <int D>
+[[gnu::always_inline]] inline typename NeighbourLists<D>::Ints NeighbourLists<D>::near_in(
+    std::uint32_t block, int cell, const std::array<Floats, D>& centre, const Floats& reach) {
+  const Block& compared = blocks_[block];
+  further_[further_count_] = {compared.next, cell};
+  further_count_ += compared.next != kNone;
+  const Floats limit = compared.radii + reach;
+  Floats beyond = -limit * limit;
+  for (int axis = 0; axis < D; ++axis) {
+    const Floats way = compared.centres[axis] - centre[axis];
+    beyond += way * way;
+  }
+  return beyond < Floats{};
+}
+
+// Appends particles of up to kBatch blocks to found_. Bit k of a lane belongs to this lane of block
+// k.
+template <int D>
+template <typename PlaceOf>
+[[gnu::always_inline]] inline void NeighbourLists<D>::append_near(const Ints& near,
+                                                                  const PlaceOf& place_of) {
+  if (found_.size() < count_ + (kBatch + 1) * kFour) found_.resize(2 * count_ + 2 * kBatch * kFour);
+  for (int half = 0; half < 2; ++half) {
+    const auto low = static_cast<std::uint32_t>(near[2 * half]);
+    const auto high = static_cast<std::uint32_t>(near[2 * half + 1]);
+    for (std::uint64_t bits = low | std::uint64_t{high} << kBatch; bits != 0; bits &= bits - 1) {
+      const auto bit = static_cast<std::uint32_t>(std::countr_zero(bits));
+      const Place place = place_of(bit % kBatch);
+      const auto lane = 2 * static_cast<std::uint32_t>(half) + bit / kBatch;
+      found_[count_++] = blocks_[place.block].particles[lane] | place.wrap;
+    }
+  }
+}
+
+// Compares a centre with the first blocks of the cells that have the same place along the axes
+// above kAxis. `place` and `cell` are the parts of these axes.
+template <int D>
+template <int kAxis>
+[[gnu::always_inline]] inline void NeighbourLists<D>::compare_cells(Surroundings& around,
+                                                                    const Place& place,
+                                                                    std::array<Floats, D> centre,
+                                                                    int cell) {
+#pragma GCC unroll 3
+  for (int step = 0; step < 3; ++step) {
+    const Place& along = around.steps[kAxis][step];
+    const Place next = {place.block + along.block, place.wrap | along.wrap};
+    centre[kAxis] = around.centre[kAxis][step];
+    if constexpr (kAxis > 0) {
+      compare_cells<kAxis - 1>(around, next, centre, 3 * (cell + step));
+    } else {
+      const int number = cell + step;
+      around.firsts[number] = next;
+      around.near |= near_in(next.block, number, centre, around.reach) &
+                     bit_of(static_cast<std::size_t>(number));
+    }
+  }
+}
+
+// Finds the particles whose regions are near that of a particle, which is not in a cell.
 template <int D>
 void NeighbourLists<D>::find_neighbours(std::uint32_t particle) {
   const Region& region = regions_[particle];
   const IntVec<D> cell = cell_at(region.centre);
-  std::array<std::array<Floats, 3>, D> centre;  // from the corners of the neighbouring cells
-  std::array<const Step*, D> steps;
+  Surroundings around;
   for (int axis = 0; axis < D; ++axis) {
-    steps[axis] = &steps_[axis][static_cast<std::size_t>(cell[axis])];
+    around.steps[axis] = &steps_[axis][static_cast<std::size_t>(cell[axis])];
     for (int step = 0; step < 3; ++step) {
       const double from_corner = region.centre[axis] - (cell[axis] + step - 1) * widths_[axis];
-      centre[axis][step] = Floats{} + static_cast<float>(from_corner);
+      around.centre[axis][step] = Floats{} + static_cast<float>(from_corner);
     }
   }
-  const Floats reach = Floats{} + static_cast<float>(contact_ + region.radius);
-  count_ = 0;
-  for (int k = 0; k < kCells; ++k) {
-    std::array<Floats, D> from;
-    std::uint32_t block = 0;
-    Neighbour wrap = 0;
-    bool exists = true;
-    for (int axis = 0, digits = k; axis < D; ++axis, digits /= 3) {
-      const Step& step = steps[axis][digits % 3];
-      from[axis] = centre[axis][digits % 3];
-      block += step.index;
-      wrap |= step.wrap;
-      exists = exists && step.index != kNone;
+  around.reach = Floats{} + static_cast<float>(contact_ + region.radius);
+  count_ = further_count_ = 0;
+  compare_cells<D - 1>(around, {}, {}, 0);
+  append_near(around.near, [&](std::uint32_t k) { return around.firsts[k]; });
+
+  for (std::size_t begin = 0; begin < further_count_; begin += kBatch) {
+    Ints near{};
+    for (std::size_t k = begin; k < std::min(further_count_, begin + kBatch); ++k) {
+      if (further_count_ + kCells > further_.size()) further_.resize(2 * further_.size());
+      const auto [block, number] = further_[k];
+      std::array<Floats, D> centre;
+      for (int axis = 0, digits = number; axis < D; ++axis, digits /= 3) {
+        centre[axis] = around.centre[axis][digits % 3];
+      }
+      near |= near_in(block, number, centre, around.reach) & bit_of(k - begin);
     }
-    if (exists) find_in_cell(block, wrap, from, reach, particle);
+    append_near(near, [&](std::uint32_t k) {
+      const auto [block, number] = further_[begin + k];
+      return Place{block, around.firsts[number].wrap};
+    });
   }
 }
 
@@ -227,10 +276,13 @@ void NeighbourLists<D>::fill(List& list) {
   for (std::size_t k = 0; k < count_; ++k) continuations_.put_on(list, found_[k]);
 }
 
-static bool contains(const Neighbour* first, std::size_t count, Neighbour wanted) {
-  Neighbour found = 0;
-  for (std::size_t k = 0; k < count; ++k) found |= first[k] == wanted;
-  return found;
+// Whether all lanes are zero.
+template <class Ints>
+static bool is_zero(const Ints& lanes) {
+  std::array<std::int64_t, 2> halves;
+  static_assert(sizeof halves == sizeof lanes);
+  std::memcpy(halves.data(), &lanes, sizeof halves);
+  return (halves[0] | halves[1]) == 0;
 }
 
 // Gives a particle the list found_, and enters the difference in the lists of its neighbours.
@@ -243,12 +295,26 @@ void NeighbourLists<D>::mend_lists(std::uint32_t particle) {
     const Neighbour wrap = neighbour - particle_of<D>(neighbour);
     return particle | (wrap ^ ((wrap & kLowBits) << 1));
   };
+  // Compares four elements at a time, because branches on them would be unpredictable.
+  for (std::size_t k = count_; k % kFour != 0; ++k) found_[k] = kNobody;
+  kept_.assign(count_ + kFour, 0);
   for (const Neighbour neighbour : known_) {
-    if (contains(found_.data(), count_, neighbour)) continue;
-    continuations_.take_off(regions_[particle_of<D>(neighbour)].list, seen_from(neighbour));
+    Ints same{};
+    for (std::size_t k = 0; k < count_; k += kFour) {
+      Ints four, kept;
+      std::memcpy(&four, &found_[k], sizeof four);
+      std::memcpy(&kept, &kept_[k], sizeof kept);
+      const Ints equal = four == static_cast<std::int32_t>(neighbour);
+      same |= equal;
+      kept |= equal;
+      std::memcpy(&kept_[k], &kept, sizeof kept);
+    }
+    if (is_zero(same)) {
+      continuations_.take_off(regions_[particle_of<D>(neighbour)].list, seen_from(neighbour));
+    }
   }
   for (std::size_t k = 0; k < count_; ++k) {
-    if (contains(known_.data(), known_.size(), found_[k])) continue;
+    if (kept_[k]) continue;
     continuations_.put_on(regions_[particle_of<D>(found_[k])].list, seen_from(found_[k]));
   }
   fill(regions_[particle].list);
@@ -259,8 +325,8 @@ template <int D>
 void NeighbourLists<D>::place(std::uint32_t particle, const Vec<D>& position) {
   regions_[particle].centre = position;
   regions_[particle].radius = max_radius_;
-  put_in_cell(particle);
   find_neighbours(particle);
+  put_in_cell(particle);
   known_.clear();
   mend_lists(particle);
 }
@@ -283,8 +349,8 @@ Vec<D> NeighbourLists<D>::leave(const Model<D>& model, const Flight<D>& flight, 
   if (speed > 0.0) centre += velocity * (kLead * region.radius / speed);
   const Vec<D> boxes = model.image_index(centre);
   region.centre = centre - boxes.cwiseProduct(box_);
-  put_in_cell(number);
   find_neighbours(number);
+  put_in_cell(number);
   mend_lists(number);
   return boxes;
 }

@@ -76,15 +76,31 @@ class NeighbourLists {
   };
   // Up to four particles of a cell. Single precision is enough with the margin of kContact.
   struct Block {
-    std::array<Floats, D> centres;  // from the lower corner of the cell
-    Floats radii;
-    std::array<std::uint32_t, kFour> particles = {kNobody, kNobody, kNobody, kNobody};
-    std::uint32_t next = kNone;  // block of the same cell
+    std::array<Floats, D> centres;  // from the lower corner of the cell; beyond the count: far away
+    Floats radii{};
+    std::array<std::uint32_t, kFour> particles{};
+    std::uint32_t next = kNone;  // block of the same cell, if this one is full
+    std::uint32_t count = 0;
+
+    Block();
   };
-  // A neighbouring cell along one axis.
-  struct Step {
-    std::uint32_t index = kNone;  // this axis' part of the index of the cell; kNone: a wall
-    Neighbour wrap = 0;           // of the particles there
+  // A block of a neighbouring cell, or the part of its index along one axis.
+  struct Place {
+    std::uint32_t block = 0;
+    Neighbour wrap = 0;  // of the particles there
+  };
+  // A block after the first of one of the cells around a centre.
+  struct Further {
+    std::uint32_t block = 0;
+    int cell = 0;
+  };
+  // The cells around a centre. They have numbers, which count fastest along the first axis.
+  struct Surroundings {
+    std::array<const Place*, D> steps;
+    std::array<std::array<Floats, 3>, D> centre;  // from the corners of the cells along each axis
+    Floats reach;
+    std::array<Place, kCells> firsts;  // the first block of each cell
+    Ints near{};                       // bit k of a lane: whether this particle of block k is near
   };
 
   IntVec<D> cell_at(const Vec<D>& position) const;
@@ -93,8 +109,13 @@ class NeighbourLists {
   void put_in_cell(std::uint32_t particle);
   void take_from_cell(std::uint32_t particle);
   void find_neighbours(std::uint32_t particle);
-  void find_in_cell(std::uint32_t block, Neighbour wrap, const std::array<Floats, D>& centre,
-                    Floats reach, std::uint32_t particle);
+  template <int kAxis>
+  void compare_cells(Surroundings& around, const Place& place, std::array<Floats, D> centre,
+                     int cell);
+  Ints near_in(std::uint32_t block, int cell, const std::array<Floats, D>& centre,
+               const Floats& reach);
+  template <typename PlaceOf>
+  void append_near(const Ints& near, const PlaceOf& place_of);
   void fill(List& list);
   void mend_lists(std::uint32_t particle);
 
@@ -103,14 +124,17 @@ class NeighbourLists {
   double max_radius_;  // of regions
   IntVec<D> counts_;
   Vec<D> widths_;
-  std::array<std::vector<Step>, D> steps_;  // [counts + 2] along each axis: of cells -1 ... counts
-  LargeArray<Region> regions_;              // [N]
+  std::array<std::vector<Place>, D> steps_;  // [counts + 2] along each axis: of cells -1 ... counts
+  LargeArray<Region> regions_;               // [N]
   Continuations<D, List> continuations_;
   LargeArray<Block> blocks_;  // the first block of each cell, then further blocks
   std::vector<std::uint32_t> spare_blocks_;
   std::vector<Neighbour> known_;  // the list of a particle that gets a new one
-  std::vector<Neighbour> found_;  // the new list, and room for kFour elements
+  std::vector<Neighbour> found_;  // the new list, and room for a batch
   std::size_t count_ = 0;         // of the new list
+  std::vector<Neighbour> kept_;   // for each element of the new list: not 0 if it is known
+  std::vector<Further> further_;  // blocks to compare, and room for kCells more
+  std::size_t further_count_ = 0;
 };
 
 template <int D>

@@ -144,7 +144,7 @@ class Neighbourhood {
 
  private:
   // Measured for N = 10,976: from this volume fraction on, lists of particles are faster.
-  static constexpr double kDense = 0.45;
+  static constexpr double kDense = 0.43;
   // Whether the particles have lists of their own.
   static bool has_lists(const Model<D>& model, double particles) {
     for (int axis = 0; axis < D; ++axis) {
