@@ -527,7 +527,9 @@ TEST_CASE("Bench: a cell of the table of cores has the gas as a whole and in til
                  {"redundant", " %.2f"},
                  {"redone", " %.3f"}});
   check_refused(shell, "clatter bench cores --count 2 --area-fraction 0.9",
-                {"--area-fraction", "no square box"});
+                {"--area-fraction",
+                 "no square box holds this number of disks at this fraction; choose a "
+                 "smaller fraction, or another --count"});
 }
 
 TEST_CASE("Bench: the table of cores has large gases, up to the number asked for") {

@@ -6,6 +6,7 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -77,22 +78,33 @@ TEST_CASE("Lecture: ink is opaque at first, fades, and is removed") {
 }
 
 // A part of the line joins two places, unless the pen was lifted between them.
-TEST_CASE("Lecture: a pen that was lifted begins another line") {
+TEST_CASE("Lecture: a painted line fades, and a lifted pen begins another line") {
   const GuiContext context = make_gui_context();
   const CurrentContext current(context.get());
   ImDrawListSharedData shared;
   shared.SetCircleTessellationMaxError(0.3f);
-  const auto vertices = [&](bool lifts) {
+  struct Painted {
+    int vertices;
+    ImU32 opacity;  // the largest of a vertex, 0..255
+  };
+  const auto painted = [&](bool lifts, double now) {
     FadingInk ink(8.0, 2.0);
     ink.draw_to(ImVec2(10, 10), 0.0);
     if (lifts) ink.lift();
     ink.draw_to(ImVec2(30, 10), 0.1);
     ImDrawList list(&shared);
     list._ResetForNewFrame();
-    ink.paint(list, IM_COL32_WHITE, 4.0f, 0.2);
-    return list.VtxBuffer.Size;
+    ink.paint(list, IM_COL32_WHITE, 4.0f, now);
+    Painted result{list.VtxBuffer.Size, 0};
+    for (const ImDrawVert& vertex : list.VtxBuffer) {
+      result.opacity = std::max(result.opacity, vertex.col >> IM_COL32_A_SHIFT);
+    }
+    return result;
   };
-  CHECK(vertices(false) > vertices(true));
+  CHECK(painted(false, 0.2).vertices > painted(true, 0.2).vertices);
+  CHECK(painted(false, 0.2).opacity == 255);
+  // The younger place has half its opacity one second before its end.
+  CHECK(painted(false, 7.1).opacity == 128);
 }
 
 TEST_CASE("Lecture: each name of a plot is that of its plot") {

@@ -49,7 +49,8 @@ TEST_CASE("Link: a copied link has the scene with its changes") {
 TEST_CASE("Link: a mistake is reported with a suggestion") {
   CHECK(mistake_in("vibrate").find("try \"vibrated\"") != std::string::npos);
   CHECK(mistake_in("vibrated&particles.restitutoin=1").find("restitution") != std::string::npos);
-  CHECK(mistake_in("vibrated&seed=x").find("no whole number") != std::string::npos);
+  CHECK(testing::says(mistake_in("vibrated&seed=x"),
+                      "the seed is no whole number; write, say, &seed=3"));
   CHECK(mistake_in("vibrated&view.field").find("has no value") != std::string::npos);
 }
 
@@ -60,8 +61,9 @@ TEST_CASE("Link: scenes that a page cannot open are refused") {
   CHECK(mistake_in("vibrated&box.size=[9e4,9e4]&particles.count=99999&change=[{time=1,"
                    "puff={count=2,centre=[1,1],radius=9}}]")
             .find("at most 100000") != std::string::npos);
-  CHECK(mistake_in("scene=AAAA").find("damaged") != std::string::npos);
-  CHECK(mistake_in("scene=*").find("damaged") != std::string::npos);
+  const std::string damaged = "the scene in this link is damaged; copy the whole link again";
+  CHECK(testing::says(mistake_in("scene=AAAA"), damaged));
+  CHECK(testing::says(mistake_in("scene=*"), damaged));
   CHECK(testing::says(testing::refusal_of([] { link_of(load_scene("cradle"), 1); }),
                       "a link cannot hold a start state; save the scene instead"));
   // The compressed text: particles.start={layout='file',file='a.csv'}

@@ -111,6 +111,18 @@ TEST_CASE("Tooltips: comparisons, tools of the mouse and unsaved changes") {
                       {"tool.throw", "dragged from a particle"},
                       {"tool.add", "as many as find room"}});
   CHECK(says(text_of(driver), "[ Heat ] [ Cool ] [ Kick ] [ Throw ] [ Add ]"));
+  // A tool with a circle has sliders.
+  tick(driver, "tool.add");
+  for (const auto& [slider, line, help] : std::vector<std::array<const char*, 3>>{
+           {"tool.radius", "Radius 2.90 a", "Of the circle at the mouse"},
+           {"tool.count", "Particles 20", "Number that a click adds"}}) {
+    const auto [left, top, width, height] = driver.place(slider);
+    driver.point_at(left + 0.5f * width, top + 0.5f * height);
+    const std::string told = text_of(driver);
+    CAPTURE(told);
+    CHECK(says(told, line));
+    CHECK(says(told, help));
+  }
   asks = true;
   for (int picture = 0; picture < 3; ++picture) driver.lines();
   CHECK(says(text_of(driver), "Save the changes of the scene? [ Save ] [ Discard ] [ Cancel ]"));

@@ -52,7 +52,8 @@ TEST_CASE("Panels: the dimension is chosen in a list") {
   choose(driver, "dimension", "2: disks");
   driver.wait_for([](const Frame& frame) { return frame.run == 2; });
   CHECK(driver.session().frame().snapshot.positions.rows() == 2);
-  CHECK(says(driver.session().message(), "removed: walls.back, walls.front"));
+  CHECK(says(driver.session().message(),
+             "Without meaning for disks, and removed: walls.back, walls.front"));
   const json disks = settings(driver);
   CHECK(disks.at("/particles/count") == 14);
   CHECK_FALSE(disks.contains("/box/size/2"));
