@@ -155,7 +155,7 @@ class EventLoop {
   void retire(std::uint32_t number);
   void note_stray(std::uint32_t number, const Vec<D>& position);
   bool note(const Event& event, const IntVec<D>& image);
-  void collide(std::uint32_t first, std::uint32_t second, IntVec<D> image);
+  void collide(std::uint32_t first, std::uint32_t second, const IntVec<D>& image);
   void hit_wall(std::uint32_t number, int side);
   bool within_contact_time(std::uint32_t number) const;
   bool is_too_fast(std::uint32_t number) const;

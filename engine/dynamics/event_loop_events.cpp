@@ -142,13 +142,7 @@ ParticleChange<D> EventLoop<D>::change_of(std::uint32_t number, const Vec<D>& po
 }
 
 template <int D>
-void EventLoop<D>::collide(std::uint32_t first, std::uint32_t second, IntVec<D> image) {
-  // The signs of zeros depend on the order.
-  const auto number = [this](std::uint32_t own) { return record_ ? record_->numbers[own] : own; };
-  if (number(second) < number(first)) {
-    std::swap(first, second);
-    image = -image;
-  }
+void EventLoop<D>::collide(std::uint32_t first, std::uint32_t second, const IntVec<D>& image) {
   const Vec<D> shift = image.template cast<double>().cwiseProduct(model_.box);
   const auto [r_a, v_a] = motion_now(first);
   const auto [r_b, v_b] = motion_now(second);
@@ -170,12 +164,11 @@ void EventLoop<D>::collide(std::uint32_t first, std::uint32_t second, IntVec<D> 
   const Impulse<D>& gain = outcome.gain;
   const Impulse<D> loss{-gain.momentum, gain.spin};
   if (!observers_.empty()) {
-    const PairCollision<D> collision{
-        now_,
-        {change_of(first, r_a, v_a, gain), change_of(second, r_b, v_b, loss)},
-        x,
-        outcome.elasticised,
-        outcome.undissipated};
+    const bool swap = second < first;
+    PairCollision<D> collision{
+        now_, {}, x * (swap ? -1.0 : 1.0), outcome.elasticised, outcome.undissipated};
+    collision.particles[swap] = change_of(first, r_a, v_a, gain);
+    collision.particles[!swap] = change_of(second, r_b, v_b, loss);
     for (Observer<D>* observer : observers_) observer->on_collision(collision);
   }
   --until_base_moves_;
@@ -323,8 +316,8 @@ template ParticleChange<2> EventLoop<2>::change_of(std::uint32_t, const Vec2&, c
                                                    const Impulse<2>&) const;
 template ParticleChange<3> EventLoop<3>::change_of(std::uint32_t, const Vec<3>&, const Vec<3>&,
                                                    const Impulse<3>&) const;
-template void EventLoop<2>::collide(std::uint32_t, std::uint32_t, IntVec<2>);
-template void EventLoop<3>::collide(std::uint32_t, std::uint32_t, IntVec<3>);
+template void EventLoop<2>::collide(std::uint32_t, std::uint32_t, const IntVec<2>&);
+template void EventLoop<3>::collide(std::uint32_t, std::uint32_t, const IntVec<3>&);
 template void EventLoop<2>::hit_wall(std::uint32_t, int);
 template void EventLoop<3>::hit_wall(std::uint32_t, int);
 template void EventLoop<2>::begin_stroke();

@@ -2,8 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <cmath>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -120,41 +118,6 @@ TEST_CASE("Resume: a halt right after any collision changes no bit") {
     CHECK(halted->state_hash() == straight.state_hash());
     CHECK(halted->time() == straight.time());
   }
-}
-
-namespace {
-
-// Whether the impulse along y of each collision is negative, or a negative zero.
-struct ImpulseSigns final : Observer<2> {
-  std::vector<bool> seen;
-
-  void on_collision(const PairCollision<2>& collision) override {
-    seen.push_back(std::signbit(collision.particles[0].gain.momentum.y()));
-  }
-};
-
-}  // namespace
-
-// Which of two particles has the plan of their collision depends on the halts.
-TEST_CASE("Resume: halts do not change the signs of zeros") {
-  const Model<2> model = with_walls(periodic_box(20.0, 25.0), 0, kDriven);
-  State<2> start;
-  for (const double x : {2.0, 5.0, 9.0, 12.0, 17.0}) {
-    start.positions.push_back({x, 12.0});
-    start.velocities.push_back({x == 5.0 ? 3.0 : -1.0, 0.0});
-  }
-  ImpulseSigns straight, halted;
-  Simulation<2> whole(model, start);
-  whole.add_observer(straight);
-  whole.run_until(kNever, 300);
-  auto part = std::make_unique<Simulation<2>>(model, start);
-  for (std::uint64_t collisions = 1; collisions <= 300; ++collisions) {
-    part->add_observer(halted);
-    part->run_until(kNever, collisions);
-    part = std::make_unique<Simulation<2>>(model, part->save());
-  }
-  CHECK(straight.seen.size() > 100);
-  CHECK(halted.seen == straight.seen);
 }
 
 template <int D>
