@@ -25,6 +25,7 @@ struct EventCounts {
   std::uint64_t nudges = 0;            ///< of the scene's changes
   std::uint64_t strokes = 0;           ///< of the piston, by the scene's changes
   std::uint64_t puffs = 0;             ///< of the scene's changes
+  std::uint64_t law_changes = 0;       ///< of the scene's changes that are no acts; steps of ramps
   std::uint64_t elasticised = 0;       ///< pair collisions that the TC model made elastic
   std::uint64_t elasticised_wall = 0;  ///< collisions with walls that the TC model made elastic
   /// Exits of particles from their cells or, with NeighbourLists, from their regions.
@@ -33,8 +34,8 @@ struct EventCounts {
 
   /// Collisions with particles and with walls.
   std::uint64_t collisions() const { return pair_collisions + wall_collisions; }
-  /// Changes of the scene that were acts, see Change::acts.
-  std::uint64_t acts() const { return nudges + strokes + puffs; }
+  /// Steps of the scene's changes, see Schedule.
+  std::uint64_t changes() const { return nudges + strokes + puffs + law_changes; }
   /// All events that the loop processes.
   std::uint64_t steps() const { return collisions() + kicks + cell_crossings + stale; }
 };
@@ -89,9 +90,9 @@ using AnyRunState = std::variant<RunState<2>, RunState<3>>;
 /// Visits the counts that the run determines, in order. The others depend on cells and tiles.
 template <class Archive>
 void visit(Archive& io, EventCounts& counts) {
-  auto& [pair_collisions, wall_collisions, kicks, nudges, strokes, puffs, elasticised,
+  auto& [pair_collisions, wall_collisions, kicks, nudges, strokes, puffs, law_changes, elasticised,
          elasticised_wall, cell_crossings, stale] = counts;
-  io(pair_collisions, wall_collisions, kicks, nudges, strokes, puffs, elasticised,
+  io(pair_collisions, wall_collisions, kicks, nudges, strokes, puffs, law_changes, elasticised,
      elasticised_wall);
 }
 

@@ -38,7 +38,7 @@ template <int D>
 ScheduledRun<D>::ScheduledRun(const Scene& scene, std::uint64_t seed, const RunState<D>& saved,
                               const StopRequest& stop)
     : schedule_(scene), seed_(seed) {
-  schedule_.skip_to(Clock(saved.base).absolute(saved.now), saved.counts.acts());
+  schedule_.skip_to(Clock(saved.base).absolute(saved.now), saved.counts.changes());
   simulation_ = std::make_unique<Simulation<D>>(model_of<D>(schedule_.laws(), seed), saved, stop);
 }
 
@@ -182,9 +182,10 @@ void ScheduledRun<D>::advance(Schedule schedule) {
   if (change.nudge) simulation_->check(*change.nudge);
   schedule.advance();
   if (!change.set.empty()) {
-    go_on_as(
-        std::make_unique<Simulation<D>>(model_of<D>(schedule.laws(), seed_), simulation_->save()),
-        change.ramp ? Averages::Continue : Averages::Restart);
+    RunState<D> state = simulation_->save();
+    if (!change.acts()) ++state.counts.law_changes;
+    go_on_as(std::make_unique<Simulation<D>>(model_of<D>(schedule.laws(), seed_), std::move(state)),
+             change.ramp ? Averages::Continue : Averages::Restart);
   }
   if (change.nudge) simulation_->nudge(*change.nudge);
   if (change.piston) simulation_->move_piston(*change.piston, change.time, change.until);

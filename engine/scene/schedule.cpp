@@ -132,12 +132,12 @@ void Schedule::advance() {
   change_to(on_the_way(laws_, change.set, 1.0 / (kRampSteps - step.part + 1)));
 }
 
-// A run that halted between the events of a time and its act has this time, with rounding.
-void Schedule::skip_to(double time, std::uint64_t acts) {
+// A run that halted among the events and changes of a time has this time, with rounding.
+void Schedule::skip_to(double time, std::uint64_t steps) {
   constexpr double kRoundings = 4.0 * std::numeric_limits<double>::epsilon();
   while (next() <= time) {
     const bool now = next() * (1.0 + kRoundings) >= time;
-    if (coming().acts() && acts-- == 0 && now) return;
+    if (steps-- == 0 && now) return;
     advance();
   }
 }

@@ -36,9 +36,9 @@ class Schedule {
   /// Makes the next change of laws, if it has any. Throws UserError if the result is invalid, or
   /// needs another gas or box.
   void advance();
-  /// Makes all changes up to and at the simulation time of a run that has had so many acts, see
-  /// Change::acts. An act at this time that the run has not had stays, with all changes after it.
-  void skip_to(double time, std::uint64_t acts = ~std::uint64_t{0});
+  /// Makes all steps up to and at the simulation time of a run that has had so many. A step at this
+  /// time that the run has not had stays, with all after it.
+  void skip_to(double time, std::uint64_t steps = ~std::uint64_t{0});
   /// Adds a change at the current time or later.
   void add(const Change& change);
 

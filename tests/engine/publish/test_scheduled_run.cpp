@@ -409,3 +409,21 @@ TEST_CASE(
   run.run_until(11.0001);
   CHECK(refusal_of_stroke() == "");
 }
+
+// Disks of a lattice touch the wall at time 0. Their collisions come before the change.
+TEST_CASE("Scheduled run: a run saved among the events of a change's time has the change to come") {
+  const Scene scene = parse_scene(
+      "box.size = [3.3, 11.0]\nparticles = { count = 23, start.layout = 'lattice' }\n"
+      "walls.left.kind = 'static'\nwalls.right = { kind = 'thermal', temperature = 0.5 }\n"
+      "[[change]]\ntime = 0.0\nset = { 'walls.right.temperature' = 0.1 }\n",
+      "");
+  ScheduledRun<2> whole(scene, 1);
+  ScheduledRun<2> early(scene, 1, whole.simulation().save());
+  whole.run_until(0.0);
+  ScheduledRun<2> late(scene, 1, whole.simulation().save());
+  CHECK(whole.simulation().counts().wall_collisions > 0);
+  for (ScheduledRun<2>* run : {&whole, &early, &late}) run->run_until(1.0);
+  CHECK(early.simulation().state_hash() == whole.simulation().state_hash());
+  CHECK(late.simulation().state_hash() == whole.simulation().state_hash());
+  CHECK(late.simulation().counts().law_changes == 1);
+}
