@@ -264,8 +264,8 @@ int measure_replicas(const MeasureOptions& options, const Scene& scene, double e
                     "the seeds of the replicas would exceed " + std::to_string(kLastSeed),
                     "give a smaller seed");
   }
-  if (!options.out.empty()) require_writable_file(options.out, "--out");
   catch_interrupts();
+  if (!options.out.empty()) require_writable_file(options.out, "--out");
   const Ensemble ensemble{options.replicas, seed, end, options.threads};
   Progress progress(options.common.shown_progress(), "measuring", 0.0, options.replicas * end);
   const EnsembleResult result = measure_ensemble(scene, ensemble, progress);
@@ -404,8 +404,8 @@ int measure(const MeasureOptions& options) {
   if (options.replicas > 1) return measure_replicas(options, scene, end);
   const std::filesystem::path checkpoint =
       checkpoint_path(options.common, options.checkpoints, resumed, options.out);
+  catch_interrupts();  // a signal would leave the temporary files of outputs behind
   prepare_outputs(options, scene, checkpoint);
-  catch_interrupts();
   return with_dimension(scene.dimension(), [&](auto dimension) {
     return measure_one<dimension>(options, scene, std::move(resumed), checkpoint, end);
   });
