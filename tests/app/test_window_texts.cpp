@@ -136,6 +136,19 @@ TEST_CASE("Window texts: the plot of lecture mode takes a third of the window, b
   CHECK(caption[2] > 10.0f * caption[3]);
 }
 
+TEST_CASE("Window texts: the dialog for films offers what the scene has: plots, but no overlay") {
+  Scene scene = load_scene("conduction");
+  scene.view.overlay = false;
+  scene.view.plots = {FilmPlot::Temperature};
+  OffscreenWindow window(scene, 1280.0f, 1840.0f);
+  window.click("film");
+  const std::string text = window.text("film dialog");
+  CAPTURE(text);
+  CHECK(says(text, "Plots beside the gas"));
+  CHECK_FALSE(says(text, "Title, figures and scales"));
+  CHECK(says(window.tooltip("film.plots"), "The plots of the scene"));
+}
+
 TEST_CASE("Window texts: Esc closes the list of keys before the settings below it") {
   OffscreenWindow window(load_scene("conduction"));
   window.press('l');
