@@ -20,6 +20,8 @@ class OffscreenWindow {
   explicit OffscreenWindow(const Scene& scene, float width = 1500.0f, float height = 950.0f);
   ~OffscreenWindow();
 
+  /// Draws the window once more.
+  void draw();
   /// Presses the key of a letter.
   void press(char letter);
   /// Presses the key with this code of GLFW.
@@ -41,7 +43,6 @@ class OffscreenWindow {
  private:
   class NoDesktop;
 
-  void draw();
   void point_at(const std::string& widget);
 
   testing::TemporaryFolder folder_;
