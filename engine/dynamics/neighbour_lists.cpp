@@ -15,9 +15,11 @@ namespace clatter {
 
 // Distance of centres at contact in diameters, with a margin that exceeds any rounding.
 static constexpr double kContact = 1.01;
-// Measured best at a volume fraction of 0.49: the mean number of neighbours, and the distance of a
-// particle behind the centre of its new region, in radii.
+// The mean number of neighbours. Measured best for N from 1372 to 87,808 at a volume fraction of
+// 0.49.
 static constexpr double kWanted = 11.0;
+// The distance of a particle behind the centre of its new region, in radii. Measured best for N =
+// 4000 and volume fractions from 0.4 to 0.5.
 static constexpr double kLead = 0.4;
 // A region shrinks or grows if its list is longer or shorter.
 static constexpr std::size_t kLong = 17, kShort = 9;
@@ -26,7 +28,7 @@ static constexpr double kMinRadius = 0.02;  // diameters
 // Blocks that are compared between two visits of their particles: one bit each.
 static constexpr int kBatch = 32;
 // The coordinate of a place without a particle.
-static constexpr float kFar = std::numeric_limits<float>::infinity();
+static constexpr float kNowhere = std::numeric_limits<float>::infinity();
 
 // Radius of the regions of an evenly spread gas in which a particle has kWanted neighbours.
 template <int D>
@@ -105,7 +107,7 @@ std::uint32_t NeighbourLists<D>::new_block() {
 
 template <int D>
 NeighbourLists<D>::Block::Block() {
-  centres.fill(Floats{} + kFar);
+  centres.fill(Floats{} + kNowhere);
 }
 
 template <int D>
@@ -147,7 +149,7 @@ void NeighbourLists<D>::take_from_cell(std::uint32_t particle) {
   const std::uint32_t last = --block->count;
   for (int axis = 0; axis < D; ++axis) {
     holder->centres[axis][place] = block->centres[axis][last];
-    block->centres[axis][last] = kFar;
+    block->centres[axis][last] = kNowhere;
   }
   holder->radii[place] = block->radii[last];
   holder->particles[place] = block->particles[last];

@@ -76,7 +76,7 @@ class NeighbourLists {
   };
   // Up to four particles of a cell. Single precision is enough with the margin of kContact.
   struct Block {
-    std::array<Floats, D> centres;  // from the lower corner of the cell; beyond the count: far away
+    std::array<Floats, D> centres;  // from the lower corner of the cell; beyond the count: infinity
     Floats radii{};
     std::array<std::uint32_t, kFour> particles{};
     std::uint32_t next = kNone;  // block of the same cell, if this one is full
