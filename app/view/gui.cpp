@@ -153,7 +153,7 @@ void Gui::panels() {
   panels_.narrow = whole.x < kNarrowText * unit + kNarrowFrames * ImGui::GetFrameHeight();
   if (panels_.narrow) return sheets();
   const float width = std::round(
-      std::clamp(kPanelShare * whole.x, 0.75f * kPanelWidth * unit, 1.3f * kPanelWidth * unit));
+      std::clamp(kPanelShare * whole.x, 0.88f * kPanelWidth * unit, 1.3f * kPanelWidth * unit));
   if (panels_.panels) {
     area_.low.y = top_panel();
     left_panel(area_.low.y, width);

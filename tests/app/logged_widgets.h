@@ -12,15 +12,31 @@
 
 namespace clatter {
 
-/// The events in a script log that place a widget, oldest first.
-inline std::vector<nlohmann::json> widgets_in(const std::filesystem::path& log) {
-  std::vector<nlohmann::json> widgets;
+/// The events in a script log, oldest first.
+inline std::vector<nlohmann::json> events_in(const std::filesystem::path& log) {
+  std::vector<nlohmann::json> events;
   std::istringstream lines(testing::bytes_of(log));
   for (std::string line; std::getline(lines, line);) {
-    auto event = nlohmann::json::parse(line);
-    if (event.at("event") == "widget") widgets.push_back(std::move(event));
+    events.push_back(nlohmann::json::parse(line));
   }
+  return events;
+}
+
+/// The events in a script log that place a widget, oldest first.
+inline std::vector<nlohmann::json> widgets_in(const std::filesystem::path& log) {
+  std::vector<nlohmann::json> widgets = events_in(log);
+  std::erase_if(widgets, [](const auto& event) { return event.at("event") != "widget"; });
   return widgets;
+}
+
+/// Whether the newest status in a script log answers all commands, and the gas is halted.
+inline bool at_rest(const std::filesystem::path& log) {
+  nlohmann::json sent = 0, status;
+  for (const nlohmann::json& event : events_in(log)) {
+    if (event.contains("command")) sent = event["command"];
+    if (event["event"] == "status") status = event;
+  }
+  return status["handled"] == sent && status["plays"] == false;
 }
 
 /// The newest rectangle of a widget in a script log: left, top, width, height. Absent: none.

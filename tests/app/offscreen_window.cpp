@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "tests/app/logged_widgets.h"
+#include "tests/render/picture.h"
 #include "tests/support/drawn_text.h"
 #include "tests/support/messages.h"
 
@@ -29,11 +30,12 @@ class OffscreenWindow::NoDesktop final : public Host {
   Loudspeaker* loudspeaker() override { return nullptr; }
 };
 
-OffscreenWindow::OffscreenWindow(const Scene& scene, float width, float height)
+OffscreenWindow::OffscreenWindow(const Scene& scene, float width, float height, double until,
+                                 const std::vector<Scene>& beside)
     : desktop_(std::make_unique<NoDesktop>()), log_(folder_ / "log") {
   ImGui::GetIO().DisplaySize = ImVec2(width, height);
   gui_ = std::make_unique<Gui>(*desktop_, gl_->gl(), input_, worker_, log_);
-  gui_->open(scene, 1, 0.0);
+  gui_->open(scene, 1, until, beside);
   for (int look = 0; look < 2000 && !place_in(folder_ / "log", "viewport"); ++look) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     gui_->draw();
@@ -47,6 +49,16 @@ OffscreenWindow::~OffscreenWindow() = default;
 // Panels settle within this number of pictures.
 void OffscreenWindow::draw() {
   for (int picture = 0; picture < 4; ++picture) gui_->draw();
+}
+
+void OffscreenWindow::settle() {
+  const auto settled = [&] { return !gui_->changes() && at_rest(folder_ / "log"); };
+  for (int look = 0; look < 2000 && !settled(); ++look) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    gui_->draw();
+  }
+  REQUIRE(settled());
+  draw();
 }
 
 void OffscreenWindow::press(char letter) {
@@ -72,14 +84,33 @@ void OffscreenWindow::point_at(const std::string& widget) {
   draw();
 }
 
+void OffscreenWindow::point_at(const std::string& widget, float right, float down) {
+  const auto [left, top, width, height] = place(widget);
+  ImGui::GetIO().MousePos = ImVec2(left + right * width, top + down * height);
+  draw();
+}
+
+void OffscreenWindow::hold(bool down) {
+  ImGui::GetIO().MouseDown[0] = down;
+  // An early second click would be a double click.
+  ImGui::GetIO().DeltaTime = 1.0f;
+  draw();
+}
+
 void OffscreenWindow::click(const std::string& widget) {
   point_at(widget);
-  for (const bool down : {true, false}) {
-    ImGui::GetIO().MouseDown[0] = down;
-    // An early second click would be a double click.
-    ImGui::GetIO().DeltaTime = 1.0f;
-    draw();
-  }
+  hold(true);
+  hold(false);
+}
+
+Image OffscreenWindow::picture() {
+  const Gl& gl = gl_->gl();
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const Canvas canvas =
+      blank_canvas(gl, {static_cast<int>(size.x), static_cast<int>(size.y)}, {0x60, 0x60, 0x60});
+  canvas.bind();
+  GuiLayer(gl).draw(*ImGui::GetDrawData());
+  return canvas.read();
 }
 
 std::string OffscreenWindow::text(const std::string& part) const {

@@ -8,6 +8,7 @@
 #include "app/view/gui.h"
 #include "render/context/context.h"
 #include "render/layers/gui_context.h"
+#include "render/output/image.h"
 #include "tests/support/temporary_folder.h"
 
 namespace clatter {
@@ -16,18 +17,30 @@ namespace clatter {
 /// are read from the draw lists.
 class OffscreenWindow {
  public:
-  /// Opens a scene with a halted gas in a window of this size, and waits until it is drawn.
-  explicit OffscreenWindow(const Scene& scene, float width = 1500.0f, float height = 950.0f);
+  /// Opens a scene, and those beside it, in a window of this size. Waits until the gases are drawn.
+  /// They halt at the simulation time `until`.
+  explicit OffscreenWindow(const Scene& scene, float width = 1500.0f, float height = 950.0f,
+                           double until = 0.0, const std::vector<Scene>& beside = {});
   ~OffscreenWindow();
 
   /// Draws the window once more.
   void draw();
+  /// Draws the window until the engine has answered, the gas is halted and nothing changes without
+  /// input.
+  void settle();
   /// Presses the key of a letter.
   void press(char letter);
   /// Presses the key with this code of GLFW.
   void press_key(int key);
-  /// Clicks a widget with this name in the script log.
+  /// Moves the mouse to these shares of the width and height of a widget with this name in the
+  /// script log.
+  void point_at(const std::string& widget, float right, float down);
+  /// Presses or releases the left button of the mouse.
+  void hold(bool down);
+  /// Clicks a widget.
   void click(const std::string& widget);
+  /// The latest picture of all panels. Grey is in the place of the gas.
+  Image picture();
   /// The rectangle of a widget as in the script log: left, top, width, height.
   std::array<float, 4> place(const std::string& widget) const;
   /// The texts of the parts of the window whose names begin so, in drawing order. Line breaks are

@@ -1,8 +1,6 @@
 #include <doctest/doctest.h>
-#include <stb_image.h>
 
 #include <array>
-#include <cstdlib>
 #include <string>
 
 #include "engine/dimension.h"
@@ -12,7 +10,7 @@
 #include "render/camera_path.h"
 #include "render/layers/renderer.h"
 #include "tests/render/es_context.h"
-#include "tests/render/picture.h"
+#include "tests/support/golden_picture.h"
 
 // Pictures of nine scenes, kept in assets/golden. Where a change of the looks is meant,
 //   CLATTER_WRITE_GOLDEN=1 build/release/tests/render_tests -tc='Golden*OSMesa*'
@@ -152,60 +150,9 @@ Image drawn(const Golden& golden, const Gl& gl) {
   return canvas.read();
 }
 
-std::filesystem::path file_of(const Golden& golden) {
-  return std::filesystem::path(CLATTER_GOLDEN) / (std::string(golden.name) + ".png");
-}
-
-Image read_png(const std::filesystem::path& path) {
-  Image image;
-  int channels = 0;
-  unsigned char* pixels =
-      stbi_load(path.c_str(), &image.size.width, &image.size.height, &channels, 4);
-  REQUIRE_MESSAGE(pixels, "no picture " << path);
-  image.rgba.assign(pixels, pixels + 4 * image.size.width * image.size.height);
-  stbi_image_free(pixels);
-  return image;
-}
-
-// Whether the pixels around a pixel have different colours.
-bool on_edge(const Image& image, int x, int y) {
-  constexpr int kFlat = 4;
-  for (int v = std::max(0, y - 1); v <= std::min(y + 1, image.size.height - 1); ++v) {
-    for (int u = std::max(0, x - 1); u <= std::min(x + 1, image.size.width - 1); ++u) {
-      if (difference(pixel(image, x, y), pixel(image, u, v)) > kFlat) return true;
-    }
-  }
-  return false;
-}
-
-// Number of pixels that differ by more than a driver's rounding error. Limits: a level or two away
-// from edges, and a shift of 1/30 pixel of the strongest edge.
-int wrong_pixels(const Image& golden, const Image& image) {
-  constexpr int kOffEdges = 2, kOnEdges = 8;
-  int wrong = 0;
-  for (int y = 0; y < golden.size.height; ++y) {
-    for (int x = 0; x < golden.size.width; ++x) {
-      const int allowed = on_edge(golden, x, y) ? kOnEdges : kOffEdges;
-      wrong += difference(pixel(golden, x, y), pixel(image, x, y)) > allowed;
-    }
-  }
-  return wrong;
-}
-
 void compare(const Gl& gl) {
   for (const Golden& golden : kGolden) {
-    CAPTURE(std::string(golden.name));
-    const Image image = drawn(golden, gl);
-    if (std::getenv("CLATTER_WRITE_GOLDEN")) write_png(file_of(golden), image);
-    const Image kept = read_png(file_of(golden));
-    REQUIRE(kept.rgba.size() == image.rgba.size());
-    const int wrong = wrong_pixels(kept, image);
-    CHECK(wrong == 0);
-    if (wrong == 0) continue;
-    const auto seen =
-        std::filesystem::temp_directory_path() / (std::string("golden_") + golden.name + ".png");
-    write_png(seen, image);
-    MESSAGE("what was drawn: " << seen);
+    testing::check_golden(golden.name, drawn(golden, gl));
   }
 }
 
@@ -245,7 +192,7 @@ TEST_CASE("Golden pictures: a disk a quarter of a pixel off is detected") {
   const Canvas canvas(context->gl(), kGoldenSize);
   canvas.bind();
   renderer.draw(snapshot, camera, kGoldenSize, scene.view, {});
-  CHECK(wrong_pixels(read_png(file_of(golden)), canvas.read()) > 0);
+  CHECK(testing::wrong_pixels(drawn(golden, context->gl()), canvas.read()) > 0);
 }
 
 }  // namespace clatter

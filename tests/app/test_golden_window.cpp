@@ -1,0 +1,178 @@
+// Pictures of the window's panels, kept in assets/golden. They hold places, shapes and colours. The
+// words have tests of their own. Where a change of the looks is meant,
+//   CLATTER_WRITE_GOLDEN=1 build/release/tests/app_tests -tc='Golden window*'
+// draws them again; look at each before it is kept.
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <doctest/doctest.h>
+#include <imgui.h>
+
+#include "engine/scene/scene_file.h"
+#include "tests/app/offscreen_window.h"
+#include "tests/support/golden_picture.h"
+
+namespace clatter {
+
+namespace {
+
+// Other versions of Dear ImGui draw widgets in another way. CTest reports a case as skipped if it
+// prints so.
+bool draws_the_same() {
+  const bool same = std::string(ImGui::GetVersion()) == "1.86";
+  if (!same) MESSAGE("[skipped] the pictures are those of Dear ImGui 1.86");
+  return same;
+}
+
+Scene golden_scene(const std::string& keys) {
+  return parse_scene(keys, "golden");
+}
+
+const std::string kBox = R"(
+title = "Conduction"
+caption = "From the hot wall to the cold one."
+goal = "See the heat flux."
+try_this = "Heat the left wall. Then cool the right one."
+box.size = [16.0, 12.0]
+particles = { count = 70, restitution = 0.9 }
+walls.left = { kind = "thermal", temperature = 2.0 }
+walls.right = { kind = "sinusoidal", stroke = 0.5, frequency = 0.4 }
+walls.bottom = { kind = "static" }
+walls.top = { kind = "static" }
+)";
+
+}  // namespace
+
+TEST_CASE("Golden window: all panels, a slider under the mouse") {
+  if (!draws_the_same()) return;
+  OffscreenWindow window(golden_scene(kBox), 1100.0f, 1500.0f);
+  window.press('p');
+  window.point_at("particles.restitution", 0.5f, 0.5f);
+  testing::check_golden("window_panels", window.picture());
+}
+
+TEST_CASE("Golden window: light colours, a held button and an open list") {
+  if (!draws_the_same()) return;
+  OffscreenWindow window(golden_scene(kBox + "view.theme = \"light\""), 800.0f, 600.0f);
+  window.click("walls.left");
+  testing::check_golden("window_list", window.picture());
+}
+
+TEST_CASE("Golden window: marks, a loop and a second future on the timeline") {
+  if (!draws_the_same()) return;
+  OffscreenWindow window(golden_scene(kBox + R"(
+view.speed = 50.0
+[[change]]
+time = 1.0
+until = 2.5
+ramp = "linear"
+set = { "walls.left.temperature" = 3.0 }
+[[change]]
+time = 3.0
+puff = { count = 5, centre = [5.0, 6.0], radius = 4.0, temperature = 2.0 }
+[[change]]
+time = 8.0
+set = { "particles.restitution" = 0.8 }
+)"),
+                         900.0f, 600.0f, 9.0);
+  window.settle();
+  window.point_at("timeline", 0.6f, 0.6f);
+  window.hold(true);
+  window.hold(false);
+  window.settle();
+  window.click("tool.heat");
+  window.click("viewport");
+  window.settle();
+  window.point_at("timeline.change.1", 0.5f, 0.5f);
+  testing::check_golden("window_timeline", window.picture());
+  ImGui::GetIO().KeyShift = true;
+  window.point_at("timeline", 0.3f, 0.6f);
+  window.hold(true);
+  window.point_at("timeline", 0.5f, 0.6f);
+  testing::check_golden("window_loop", window.picture());
+}
+
+TEST_CASE("Golden window: lecture mode with its settings") {
+  if (!draws_the_same()) return;
+  OffscreenWindow window(golden_scene(kBox), 1000.0f, 640.0f);
+  window.press('l');
+  window.click("tool.heat");
+  window.click("lecture.settings");
+  window.point_at("viewport", 0.4f, 0.4f);
+  testing::check_golden("window_lecture", window.picture());
+}
+
+TEST_CASE("Golden window: lecture mode with sliders and a plot") {
+  if (!draws_the_same()) return;
+  OffscreenWindow window(golden_scene(kBox), 1000.0f, 640.0f);
+  window.press('l');
+  window.click("lecture.timeline");
+  window.click("lecture.pointer");
+  testing::check_golden("window_lecture_plot", window.picture());
+}
+
+TEST_CASE("Golden window: the gallery") {
+  if (!draws_the_same()) return;
+  OffscreenWindow window(golden_scene(kBox), 800.0f, 600.0f);
+  window.press('g');
+  window.settle();
+  window.point_at("gallery.conduction", 0.5f, 0.5f);
+  testing::check_golden("window_gallery", window.picture());
+}
+
+TEST_CASE("Golden window: a wall of a sphere gas is dragged") {
+  if (!draws_the_same()) return;
+  OffscreenWindow window(golden_scene(R"(
+box.size = [10.0, 7.0, 8.0]
+particles = { count = 150, restitution = 0.9 }
+walls.left = { kind = "driven", drive_speed = 1.0 }
+walls.right = { kind = "thermal", temperature = 2.0 }
+walls.back = { kind = "static" }
+walls.front = { kind = "sinusoidal", stroke = 0.5, frequency = 0.5 }
+)"),
+                         900.0f, 700.0f);
+  ImGui::GetIO().KeyShift = true;
+  window.point_at("wall.right", 0.5f, 0.5f);
+  window.hold(true);
+  window.point_at("wall.right", 0.8f, 0.7f);
+  testing::check_golden("window_spheres", window.picture());
+}
+
+TEST_CASE("Golden window: the state of a particle, and the arrow that throws another one") {
+  if (!draws_the_same()) return;
+  OffscreenWindow window(load_scene("cradle"), 800.0f, 500.0f);
+  window.point_at("viewport", 0.55f, 0.53f);
+  window.hold(true);
+  window.hold(false);
+  window.settle();
+  window.click("tool.throw");
+  window.point_at("viewport", 0.45f, 0.5f);
+  window.hold(true);
+  window.point_at("viewport", 0.3f, 0.8f);
+  testing::check_golden("window_throw", window.picture());
+}
+
+TEST_CASE("Golden window: a sheet of a narrow window") {
+  if (!draws_the_same()) return;
+  OffscreenWindow window(golden_scene(kBox), 420.0f, 700.0f);
+  window.click("sheet.view");
+  testing::check_golden("window_narrow", window.picture());
+}
+
+TEST_CASE("Golden window: compared gases") {
+  if (!draws_the_same()) return;
+  const Scene scene = golden_scene(kBox);
+  OffscreenWindow window(scene, 900.0f, 600.0f, 0.0, {scene, scene});
+  window.press('n');
+  window.settle();
+  testing::check_golden("window_compared", window.picture());
+}
+
+TEST_CASE("Golden window: the list of keys") {
+  if (!draws_the_same()) return;
+  OffscreenWindow window(golden_scene(kBox), 1000.0f, 620.0f);
+  window.press_key(GLFW_KEY_F1);
+  testing::check_golden("window_keys", window.picture());
+}
+
+}  // namespace clatter
