@@ -8,7 +8,7 @@ namespace clatter {
 
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 // A stretch of simulation time, with the factors at its begin and at its end. The factor changes at
 // a constant rate in the film, so that its square is linear in simulation time. Square roots are
@@ -18,7 +18,7 @@ struct Stretch {
   double factor, last_factor;
 
   double factor_at(double time) const {
-    if (end == kNever) return factor;
+    if (end == kUnbounded) return factor;
     const double share = std::clamp((time - begin) / (end - begin), 0.0, 1.0);
     return std::sqrt((1.0 - share) * factor * factor + share * last_factor * last_factor);
   }
@@ -26,7 +26,7 @@ struct Stretch {
   double integral(double time) const { return 2.0 * (time - begin) / (factor + factor_at(time)); }
   // The time at which the integral has a value.
   double time_at(double value) const {
-    if (end == kNever) return begin + factor * value;
+    if (end == kUnbounded) return begin + factor * value;
     const double squares = last_factor * last_factor - factor * factor;
     return std::min(begin + value * (factor + 0.25 * squares / (end - begin) * value), end);
   }
@@ -34,7 +34,7 @@ struct Stretch {
 
 // The stretches from a time on.
 std::vector<Stretch> stretches_from(double from, const std::vector<PaceKey>& keys) {
-  if (keys.empty()) return {{from, kNever, 1.0, 1.0}};
+  if (keys.empty()) return {{from, kUnbounded, 1.0, 1.0}};
   std::vector<Stretch> stretches;
   PaceKey before{std::min(0.0, from), keys.front().factor};
   for (const PaceKey& key : keys) {
@@ -45,7 +45,7 @@ std::vector<Stretch> stretches_from(double from, const std::vector<PaceKey>& key
     }
     before = key;
   }
-  stretches.push_back({std::max(from, before.time), kNever, before.factor, before.factor});
+  stretches.push_back({std::max(from, before.time), kUnbounded, before.factor, before.factor});
   return stretches;
 }
 

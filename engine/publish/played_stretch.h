@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "engine/publish/click_recorder.h"
@@ -21,6 +23,35 @@ struct PlayedStretch {
   double speed = 1.0;      ///< simulation time per second that the engine reaches, > 0
   std::uint64_t laws = 0;  ///< number of scenes and of laws that the user has set so far
   std::vector<Click> clicks = {};
+};
+
+/// The last stretches that a gas played under Listen, at most kMostStretches.
+class PlayedStretches {
+ public:
+  /// Begins or ends to keep stretches, without the earlier ones.
+  void listen(bool on) {
+    listens_ = on;
+    last_.clear();
+  }
+  /// Whether stretches are kept.
+  bool listens() const { return listens_; }
+  /// Later stretches have other laws.
+  void change_laws() { ++laws_; }
+  /// Adds a stretch, and sets its number and its laws.
+  void add(PlayedStretch stretch) {
+    stretch.number = ++number_;
+    stretch.laws = laws_;
+    if (last_.size() == kMostStretches) last_.erase(last_.begin());
+    last_.push_back(std::make_shared<const PlayedStretch>(std::move(stretch)));
+  }
+  /// The stretches in order.
+  const std::vector<std::shared_ptr<const PlayedStretch>>& last() const { return last_; }
+
+ private:
+  bool listens_ = false;
+  std::uint64_t number_ = 0;  // of the last stretch
+  std::uint64_t laws_ = 0;    // see PlayedStretch
+  std::vector<std::shared_ptr<const PlayedStretch>> last_;
 };
 
 }  // namespace clatter
