@@ -1,7 +1,6 @@
 #include "engine/publish/watched_run.h"
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
 #include <limits>
 #include <utility>
@@ -9,11 +8,8 @@
 #include "engine/dynamics/memory.h"
 #include "engine/error.h"
 #include "engine/initial/start_state.h"
-#include "engine/measure/totals.h"
-#include "engine/publish/live_observables.h"
-#include "engine/publish/live_profile.h"
-#include "engine/publish/moving_sum.h"
 #include "engine/publish/run_record.h"
+#include "engine/publish/run_watch.h"
 #include "engine/publish/scheduled_run.h"
 #include "engine/scene/piston.h"
 
@@ -54,51 +50,23 @@ class RunOf : public WatchedRun {
   double move_change(std::size_t number, double time) override;
   double exchange_futures() override;
   bool search_back(const StopRequest& pause) override;
-  std::optional<PreviousCollision> previous_collision() const override { return last_.found(); }
-  void go_back(double time) override;
-  void show(const View& view) override;
-  void show_profile(Profiled what, Axis axis) override;
-  void listen(bool on) override;
-  std::vector<Click> take_clicks() override {
-    return clicks_ ? clicks_->take() : std::vector<Click>();
+  std::optional<PreviousCollision> previous_collision() const override {
+    return watch_.last_collision().found();
   }
-  void pick(std::optional<std::uint32_t> particle) override;
+  void go_back(double time) override;
+  void show(const View& view) override { watch_.show(view); }
+  void show_profile(Profiled what, Axis axis) override { watch_.show_profile(what, axis); }
+  void listen(bool on) override { watch_.listen(on); }
+  std::vector<Click> take_clicks() override { return watch_.take_clicks(); }
+  void pick(std::optional<std::uint32_t> particle) override { watch_.pick(particle); }
   void tell(Frame& frame, bool halted) override;
-  bool looks_ahead() const override;
+  bool looks_ahead() const override { return watch_.looks_ahead(); }
   const std::optional<std::array<std::uint32_t, 2>>& partners() const override {
-    return last_.partners();
+    return watch_.last_collision().partners();
   }
 
  private:
-  // The last collision of two particles, and the time of the last one before a given time.
-  class LastCollision : public Observer<D> {
-   public:
-    explicit LastCollision(const RunOf& run) : run_(run) {}
-    void on_collision(const PairCollision<D>& collision) override {
-      partners_ = {{collision.particles[0].particle, collision.particles[1].particle}};
-      if (const double time = run_.time(); time < before_) {
-        found_ = {settled_time(time), *partners_};
-      }
-    }
-    void forget() { partners_.reset(); }
-    void search_before(double time) {
-      before_ = time;
-      found_.reset();
-    }
-    const std::optional<std::array<std::uint32_t, 2>>& partners() const { return partners_; }
-    const std::optional<PreviousCollision>& found() const { return found_; }
-
-   private:
-    const RunOf& run_;
-    std::optional<std::array<std::uint32_t, 2>> partners_;
-    double before_ = 0.0;
-    std::optional<PreviousCollision> found_;
-  };
-
   void observe_all();
-  void observe(Simulation<D>& simulation);
-  void observe_requested(Simulation<D>& simulation, double window);
-  void close_window();
 
   // The part of a run after a change in the past.
   struct Future {
@@ -123,31 +91,9 @@ class RunOf : public WatchedRun {
   Future end_future(double from);
   Future fork();
   void branch(const std::function<void()>& change);
-  // Steps of the search for the next collision of the picked particle. Most particles collide
-  // within a few collisions per particle.
-  std::uint64_t longest_search() const {
-    return 100 * (run_.simulation().particles().size() + 100);
-  }
-  std::optional<ParticleCollision> next_collision(bool halted);
-  std::optional<ContactTimeError> contact_time_error() const;
 
   ScheduledRun<D> run_;
-  std::optional<Totals<D>> totals_;
-  LastCollision last_{*this};
-  std::optional<std::uint32_t> picked_;
-  std::optional<CollisionWatch<D>> picked_collisions_;  // of the picked particle
-  std::optional<ParticleCollision> last_collision_;  // its last collision before a change of laws
-  std::optional<CollisionLookahead<D>> lookahead_;   // of the picked particle, from its first frame
-  std::uint64_t steps_told_ = 0;                     // the run's steps at the last frame
-  Profiled profiled_ = Profiled::Nothing;
-  Axis profile_axis_ = Axis::X;
-  std::optional<LiveProfile<D>> profile_;  // if profiled_ is Fields
-  std::optional<LiveResiduals<D>> residuals_;
-  std::unique_ptr<LiveObservables<D>> observables_;  // absent: the scene has none
-  std::unique_ptr<ClickRecorder<D>> clicks_;         // absent: nobody listens
-  bool same_laws_ = false;  // the next simulation has the laws of the present one
-  Tally tally_ = empty_tally(D);
-  Tally tally_at_laws_ = tally_;  // at the last change of laws
+  RunWatch<D> watch_;
   std::shared_ptr<const Scene> started_;
   std::shared_ptr<const Scene> scene_;  // of the last frame
   RunRecord<D> record_;
@@ -164,6 +110,7 @@ class RunOf : public WatchedRun {
 template <int D>
 RunOf<D>::RunOf(const Scene& scene, std::uint64_t seed, State<D> start, std::size_t record_bytes)
     : run_(scene, seed, std::move(start)),
+      watch_(run_),
       started_(std::make_shared<const Scene>(scene)),
       record_(record_bytes),
       record_bytes_(record_bytes) {
@@ -177,8 +124,7 @@ RunOf<D>::RunOf(const Scene& scene, std::uint64_t seed, State<D> start, std::siz
 template <int D>
 RunOf<D>::RunOf(const RunOf& of, const SavedState<D>& now)
     : run_(of.run_.scene(), of.run_.seed(), now.run),
-      profiled_(of.profiled_),
-      profile_axis_(of.profile_axis_),
+      watch_(run_, of.watch_),
       started_(of.started_),
       record_(of.record_),
       head_(of.head_),
@@ -200,91 +146,18 @@ std::unique_ptr<WatchedRun> RunOf<D>::copy() {
 template <int D>
 void RunOf<D>::observe_all() {
   run_.on_change = [this](Simulation<D>& next) {
-    close_window();
-    observe(next);
+    watch_.close_window();
+    watch_.observe(next);
     scene_.reset();
     recorded_laws_.reset();
   };
-  observe(run_.simulation());
-}
-
-template <int D>
-void RunOf<D>::observe(Simulation<D>& simulation) {
-  totals_.emplace(simulation);
-  tally_at_laws_ = tally_;
-  simulation.add_observer(*totals_);
-  simulation.add_observer(last_);
-  if (picked_collisions_ && picked_collisions_->last())
-    last_collision_ = picked_collisions_->last();
-  simulation.add_observer(picked_collisions_.emplace(simulation, picked_));
-  if (clicks_) clicks_->follow(simulation);
-  lookahead_.reset();
-  profile_.reset();
-  residuals_.reset();
-  const double window = run_.laws().view.window / kWindowParts;
-  if (profiled_ == Profiled::Fields) profile_.emplace(simulation, window, profile_axis_);
-  if (profiled_ == Profiled::Balances) residuals_.emplace(simulation, window, profile_axis_);
-  observe_requested(simulation, window);
-}
-
-template <int D>
-void RunOf<D>::observe_requested(Simulation<D>& simulation, double window) {
-  const Measure& measure = run_.laws().measure;
-  if (measure.observables.empty()) return;
-  observables_ = same_laws_ ? std::make_unique<LiveObservables<D>>(simulation, *observables_)
-                            : std::make_unique<LiveObservables<D>>(simulation, measure, window);
-}
-
-template <int D>
-void RunOf<D>::show(const View& view) {
-  same_laws_ = true;
-  run_.show(view);
-  same_laws_ = false;
-}
-
-template <int D>
-void RunOf<D>::pick(std::optional<std::uint32_t> particle) {
-  if (particle && *particle >= run_.simulation().particles().size()) particle.reset();
-  picked_ = particle;
-  last_collision_.reset();
-  picked_collisions_->watch(particle);
-  lookahead_.reset();
-}
-
-// A simulation without a recorder replaces the one with it.
-template <int D>
-void RunOf<D>::listen(bool on) {
-  if (on == (clicks_ != nullptr)) return;
-  if (on) {
-    clicks_ = std::make_unique<ClickRecorder<D>>(kMostClicks);
-    return clicks_->follow(run_.simulation());
-  }
-  const auto ended = std::exchange(clicks_, nullptr);
-  same_laws_ = true;
-  run_.renew();
-  same_laws_ = false;
-}
-
-template <int D>
-void RunOf<D>::show_profile(Profiled what, Axis axis) {
-  if (static_cast<int>(axis) >= D) axis = Axis::X;
-  if (what == profiled_ && axis == profile_axis_) return;
-  profiled_ = what;
-  profile_axis_ = axis;
-  same_laws_ = true;
-  run_.renew();
-  same_laws_ = false;
-}
-
-template <int D>
-void RunOf<D>::close_window() {
-  add(tally_, totals_->close_window());
+  watch_.observe(run_.simulation());
 }
 
 // The present state. The particles of the start are those of the run's start.
 template <int D>
 SavedState<D> RunOf<D>::saved_state() {
-  close_window();
+  watch_.close_window();
   if (!recorded_laws_) {
     Scene laws = run_.laws();
     laws.particles.start = {};
@@ -295,7 +168,7 @@ SavedState<D> RunOf<D>::saved_state() {
           .laws = recorded_laws_,
           .changed_until = time(),
           .rotations = run_.rotations(),
-          .tally = tally_};
+          .tally = watch_.tally()};
 }
 
 // Records the present state as the latest one. The other future gives way if memory is short.
@@ -352,10 +225,7 @@ void RunOf<D>::return_to(const SavedState<D>& saved, const std::vector<Change>& 
   scene.particles.start = started_->particles.start;
   scene.changes = changes;
   run_.return_to(scene, saved.changed_until, saved.run, saved.rotations);
-  tally_ = tally_at_laws_ = saved.tally;
-  steps_told_ = counts().steps();
-  last_.forget();
-  last_collision_.reset();
+  watch_.return_to(saved.tally);
   settled_ = !saved.stopped;
 }
 
@@ -495,10 +365,10 @@ bool RunOf<D>::search_back(const StopRequest& pause) {
   constexpr double kRoundings = 8.0 * std::numeric_limits<double>::epsilon();
   if (!search_) {
     save_head();
-    last_.search_before(time() * (1.0 - kRoundings));
+    watch_.last_collision().search_before(time() * (1.0 - kRoundings));
     search_.emplace(Search{time()});
   }
-  while (search_->from || (!last_.found() && search_->end > 0.0)) {
+  while (search_->from || (!watch_.last_collision().found() && search_->end > 0.0)) {
     if (!search_->from) {
       const SavedState<D>& start = record_.before(std::nextafter(search_->end, 0.0));
       search_->from = start.time;
@@ -514,42 +384,9 @@ bool RunOf<D>::search_back(const StopRequest& pause) {
 }
 
 template <int D>
-std::optional<ContactTimeError> RunOf<D>::contact_time_error() const {
-  const double dissipated = tally_.dissipated - tally_at_laws_.dissipated;
-  const auto collisions = static_cast<double>(tally_.collisions - tally_at_laws_.collisions);
-  if (!run_.laws().contact_time || !(dissipated > 0.0)) return std::nullopt;
-  const double undissipated = tally_.undissipated - tally_at_laws_.undissipated;
-  const auto elastic = static_cast<double>(tally_.elasticised - tally_at_laws_.elasticised);
-  return ContactTimeError{undissipated / dissipated, elastic / collisions};
-}
-
-// While the run plays, the lookahead takes about as many steps as the run. While it is halted, the
-// search continues at the next frame.
-template <int D>
-std::optional<ParticleCollision> RunOf<D>::next_collision(bool halted) {
-  constexpr std::uint64_t kHeadStart = 5000;
-  constexpr std::chrono::milliseconds kSlice{10};
-  const auto due = std::chrono::steady_clock::now() + kSlice;
-  const Simulation<D>& simulation = run_.simulation();
-  const std::uint64_t steps = simulation.counts().steps();
-  const std::uint64_t since = steps - std::exchange(steps_told_, steps);
-  if (!picked_) return std::nullopt;
-  if (!lookahead_ || !lookahead_->follows(simulation)) lookahead_.emplace(simulation, *picked_);
-  const std::uint64_t most = halted ? longest_search() : 2 * since + kHeadStart;
-  return lookahead_->next_after(simulation.time(), most,
-                                [due] { return std::chrono::steady_clock::now() >= due; });
-}
-
-template <int D>
-bool RunOf<D>::looks_ahead() const {
-  return lookahead_ && lookahead_->searches() &&
-         lookahead_->steps() < counts().steps() + longest_search();
-}
-
-template <int D>
 void RunOf<D>::tell(Frame& frame, bool halted) {
-  close_window();
   if (!scene_) scene_ = std::make_shared<const Scene>(run_.present_scene());
+  watch_.tell(frame, halted);
   frame.snapshot = run_.snapshot();
   frame.head = head();
   frame.stops = record_.stops();
@@ -558,23 +395,10 @@ void RunOf<D>::tell(Frame& frame, bool halted) {
   frame.other_future.reset();
   if (other_) frame.other_future = {other_->from, other_->head};
   frame.record_bytes = record_.bytes() + (other_ ? other_->bytes() : 0);
-  frame.tally = tally_;
   frame.scene = scene_;
   frame.started = started_;
-  frame.profile.reset();
-  if (profile_) frame.profile = profile_->profile();
-  frame.residuals.reset();
-  if (residuals_) frame.residuals = residuals_->profile();
-  frame.observables.reset();
-  if (observables_ && profiled_ != Profiled::Nothing) {
-    frame.observables = observables_->tables(halted);
-  }
   frame.seed = run_.seed();
-  frame.contact_time_error = contact_time_error();
-  frame.ledger_residual = totals_->ledger_residual();
   frame.deepest_overlap = run_.simulation().checks().deepest_overlap;
-  frame.last_collision = picked_collisions_->last() ? picked_collisions_->last() : last_collision_;
-  frame.next_collision = next_collision(halted);
   frame.state_hash.reset();
   if (halted) frame.state_hash = run_.simulation().state_hash();
 }

@@ -1,0 +1,147 @@
+#include "engine/publish/run_watch.h"
+
+#include <chrono>
+#include <utility>
+
+namespace clatter {
+
+template <int D>
+void RunWatch<D>::observe(Simulation<D>& simulation) {
+  totals_.emplace(simulation);
+  tally_at_laws_ = tally_;
+  simulation.add_observer(*totals_);
+  simulation.add_observer(last_);
+  if (picked_collisions_ && picked_collisions_->last())
+    last_collision_ = picked_collisions_->last();
+  simulation.add_observer(picked_collisions_.emplace(simulation, picked_));
+  if (clicks_) clicks_->follow(simulation);
+  lookahead_.reset();
+  profile_.reset();
+  residuals_.reset();
+  const double window = run_.laws().view.window / kWindowParts;
+  if (profiled_ == Profiled::Fields) profile_.emplace(simulation, window, profile_axis_);
+  if (profiled_ == Profiled::Balances) residuals_.emplace(simulation, window, profile_axis_);
+  observe_requested(simulation, window);
+}
+
+template <int D>
+void RunWatch<D>::observe_requested(Simulation<D>& simulation, double window) {
+  const Measure& measure = run_.laws().measure;
+  if (measure.observables.empty()) return;
+  observables_ = same_laws_ ? std::make_unique<LiveObservables<D>>(simulation, *observables_)
+                            : std::make_unique<LiveObservables<D>>(simulation, measure, window);
+}
+
+template <int D>
+void RunWatch<D>::close_window() {
+  add(tally_, totals_->close_window());
+}
+
+template <int D>
+void RunWatch<D>::return_to(const Tally& tally) {
+  tally_ = tally_at_laws_ = tally;
+  steps_told_ = run_.simulation().counts().steps();
+  last_.forget();
+  last_collision_.reset();
+}
+
+template <int D>
+void RunWatch<D>::show(const View& view) {
+  same_laws_ = true;
+  run_.show(view);
+  same_laws_ = false;
+}
+
+// Continues the run with the observers that are wanted now.
+template <int D>
+void RunWatch<D>::renew() {
+  same_laws_ = true;
+  run_.renew();
+  same_laws_ = false;
+}
+
+template <int D>
+void RunWatch<D>::show_profile(Profiled what, Axis axis) {
+  if (static_cast<int>(axis) >= D) axis = Axis::X;
+  if (what == profiled_ && axis == profile_axis_) return;
+  profiled_ = what;
+  profile_axis_ = axis;
+  renew();
+}
+
+// A simulation without a recorder replaces the one with it.
+template <int D>
+void RunWatch<D>::listen(bool on) {
+  if (on == (clicks_ != nullptr)) return;
+  if (on) {
+    clicks_ = std::make_unique<ClickRecorder<D>>(kMostClicks);
+    return clicks_->follow(run_.simulation());
+  }
+  const auto ended = std::exchange(clicks_, nullptr);
+  renew();
+}
+
+template <int D>
+void RunWatch<D>::pick(std::optional<std::uint32_t> particle) {
+  if (particle && *particle >= run_.simulation().particles().size()) particle.reset();
+  picked_ = particle;
+  last_collision_.reset();
+  picked_collisions_->watch(particle);
+  lookahead_.reset();
+}
+
+template <int D>
+std::optional<ContactTimeError> RunWatch<D>::contact_time_error() const {
+  const double dissipated = tally_.dissipated - tally_at_laws_.dissipated;
+  const auto collisions = static_cast<double>(tally_.collisions - tally_at_laws_.collisions);
+  if (!run_.laws().contact_time || !(dissipated > 0.0)) return std::nullopt;
+  const double undissipated = tally_.undissipated - tally_at_laws_.undissipated;
+  const auto elastic = static_cast<double>(tally_.elasticised - tally_at_laws_.elasticised);
+  return ContactTimeError{undissipated / dissipated, elastic / collisions};
+}
+
+// While the run plays, the lookahead takes about as many steps as the run. While it is halted, the
+// search continues at the next frame.
+template <int D>
+std::optional<ParticleCollision> RunWatch<D>::next_collision(bool halted) {
+  constexpr std::uint64_t kHeadStart = 5000;
+  constexpr std::chrono::milliseconds kSlice{10};
+  const auto due = std::chrono::steady_clock::now() + kSlice;
+  const Simulation<D>& simulation = run_.simulation();
+  const std::uint64_t steps = simulation.counts().steps();
+  const std::uint64_t since = steps - std::exchange(steps_told_, steps);
+  if (!picked_) return std::nullopt;
+  if (!lookahead_ || !lookahead_->follows(simulation)) lookahead_.emplace(simulation, *picked_);
+  const std::uint64_t most = halted ? longest_search() : 2 * since + kHeadStart;
+  return lookahead_->next_after(simulation.time(), most,
+                                [due] { return std::chrono::steady_clock::now() >= due; });
+}
+
+template <int D>
+bool RunWatch<D>::looks_ahead() const {
+  return lookahead_ && lookahead_->searches() &&
+         lookahead_->steps() < run_.simulation().counts().steps() + longest_search();
+}
+
+template <int D>
+void RunWatch<D>::tell(Frame& frame, bool halted) {
+  close_window();
+  frame.tally = tally_;
+  frame.profile.reset();
+  if (profile_) frame.profile = profile_->profile();
+  frame.residuals.reset();
+  if (residuals_) frame.residuals = residuals_->profile();
+  frame.observables.reset();
+  if (observables_ && profiled_ != Profiled::Nothing) {
+    frame.observables = observables_->tables(halted);
+  }
+  frame.contact_time_error = contact_time_error();
+  frame.ledger_residual = totals_->ledger_residual();
+  frame.last_collision = picked_collisions_->last() ? picked_collisions_->last() : last_collision_;
+  frame.next_collision = next_collision(halted);
+}
+
+template class RunWatch<2>;
+template class RunWatch<3>;
+
+}  // namespace clatter

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/measure/totals.h"
+#include "engine/publish/collision_lookahead.h"
+#include "engine/publish/frame.h"
+#include "engine/publish/last_collision.h"
+#include "engine/publish/live_observables.h"
+#include "engine/publish/live_profile.h"
+#include "engine/publish/scheduled_run.h"
+
+namespace clatter {
+
+/// All that the frames of a run measure: its tally, the collisions of the picked particle, averages
+/// and observables, and the clicks of its collisions.
+template <int D>
+class RunWatch {
+ public:
+  /// Watches no simulation before observe(). `run` must outlive this object.
+  explicit RunWatch(ScheduledRun<D>& run) : run_(run) {}
+  /// A watch of `run` with the averages of another watch.
+  RunWatch(ScheduledRun<D>& run, const RunWatch& other)
+      : run_(run), profiled_(other.profiled_), profile_axis_(other.profile_axis_) {}
+  RunWatch(const RunWatch&) = delete;
+  RunWatch& operator=(const RunWatch&) = delete;
+
+  /// Observes a simulation of the run instead of the former one.
+  void observe(Simulation<D>& simulation);
+  /// Adds what happened since the last call to the tally.
+  void close_window();
+  /// From the run's start to the last close_window().
+  const Tally& tally() const { return tally_; }
+  /// The run has returned to an earlier state with this tally.
+  void return_to(const Tally& tally);
+
+  /// Shows a view of the run.
+  void show(const View& view);
+  /// See WatchedRun for these.
+  void show_profile(Profiled what, Axis axis);
+  void listen(bool on);
+  std::vector<Click> take_clicks() { return clicks_ ? clicks_->take() : std::vector<Click>(); }
+  void pick(std::optional<std::uint32_t> particle);
+  bool looks_ahead() const;
+  LastCollision<D>& last_collision() { return last_; }
+  const LastCollision<D>& last_collision() const { return last_; }
+
+  /// Writes the measured parts of a frame.
+  void tell(Frame& frame, bool halted);
+
+ private:
+  void renew();
+  void observe_requested(Simulation<D>& simulation, double window);
+  // Steps of the search for the next collision of the picked particle. Most particles collide
+  // within a few collisions per particle.
+  std::uint64_t longest_search() const {
+    return 100 * (run_.simulation().particles().size() + 100);
+  }
+  std::optional<ParticleCollision> next_collision(bool halted);
+  std::optional<ContactTimeError> contact_time_error() const;
+
+  ScheduledRun<D>& run_;
+  std::optional<Totals<D>> totals_;
+  Tally tally_ = empty_tally(D);
+  Tally tally_at_laws_ = tally_;  // at the last change of laws
+  LastCollision<D> last_{run_};
+  std::optional<std::uint32_t> picked_;
+  std::optional<CollisionWatch<D>> picked_collisions_;  // of the picked particle
+  std::optional<ParticleCollision> last_collision_;  // its last collision before a change of laws
+  std::optional<CollisionLookahead<D>> lookahead_;   // of the picked particle, from its first frame
+  std::uint64_t steps_told_ = 0;                     // the run's steps at the last frame
+  Profiled profiled_ = Profiled::Nothing;
+  Axis profile_axis_ = Axis::X;
+  std::optional<LiveProfile<D>> profile_;  // if profiled_ is Fields
+  std::optional<LiveResiduals<D>> residuals_;
+  std::unique_ptr<LiveObservables<D>> observables_;  // absent: the scene has none
+  std::unique_ptr<ClickRecorder<D>> clicks_;         // absent: nobody listens
+  bool same_laws_ = false;  // the next simulation has the laws of the present one
+};
+
+extern template class RunWatch<2>;
+extern template class RunWatch<3>;
+
+}  // namespace clatter
