@@ -1,49 +1,22 @@
 #include "engine/dynamics/foresight.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstring>
-#include <exception>
 #include <limits>
 #include <numbers>
-#include <system_error>
-#include <thread>
+#include <span>
 #include <utility>
 
 #include "engine/dynamics/cell_of.h"
 #include "engine/dynamics/certificate.h"
+#include "engine/dynamics/in_parallel.h"
 #include "engine/dynamics/prefetch.h"
 
 namespace clatter {
 
 // Growth of the halo of a tile that is redone.
 static constexpr double kGrowth = 1.5;
-
-// Measured on two cores. Spheres have about one copy for each own particle: 10^6 at phi = 0.3 have
-// half the rate of the whole.
-bool runs_in_tiles(int dimension, std::size_t particles, int threads) {
-  constexpr std::size_t kLeast = 100'000, kLeastAlone = 10'000'000;
-  return dimension == 2 && particles >= (threads > 1 ? kLeast : kLeastAlone);
-}
-
-// Measured for N = 250,000 and 10^6 at phi = 0.5: two threads take up to 1.2 times as long as the
-// whole. From the processor time of the parts, four take about three quarters of its time.
-bool watched_runs_in_tiles(int threads) {
-  return threads >= 4;
-}
-
-TileSizes tile_sizes(std::size_t particles, double fraction, int threads) {
-  constexpr double kTilesPerThread = 4.0;
-  constexpr double kHaloOfFraction = 4.5;  // measured at 0.1 and 0.3
-  constexpr double kDilute = 0.2;          // measured at 0.1 and 0.3
-  TileSizes sizes;
-  if (fraction < kDilute) sizes.collisions = 1.5;
-  sizes.halo = std::max(sizes.halo, kHaloOfFraction / fraction);
-  sizes.particles =
-      std::min(sizes.particles, static_cast<double>(particles) / (kTilesPerThread * threads));
-  return sizes;
-}
 
 template <int D>
 Foresight<D>::Foresight(const Model<D>& model, const Boundary<D>& boundary, std::size_t particles,
@@ -111,52 +84,6 @@ void Foresight<D>::restart(double time) {
   fresh_ = true;
   window_.reset();
   events_.clear();
-  waiting_.clear();
-  at_ = 0;
-}
-
-template <int D>
-void Foresight<D>::pop() {
-  if (from_waiting_) {
-    waiting_.pop_back();
-  } else {
-    ++at_;
-  }
-}
-
-// Calls work(k, bench) for k = 0 ... count - 1, on all threads. At a stop request each thread
-// completes its call. Returns the number of calls.
-template <int D>
-std::size_t Foresight<D>::in_parallel(std::size_t count,
-                                      const std::function<void(std::size_t, Bench&)>& work,
-                                      const StopRequest& stop) {
-  std::atomic<std::size_t> next{0};
-  std::vector<std::exception_ptr> errors(benches_.size());
-  const auto take = [&](std::size_t thread) {
-    try {
-      for (std::size_t k; (k = next.fetch_add(1)) < count;) {
-        work(k, *benches_[thread]);
-        if (stop.made()) break;
-      }
-    } catch (...) {
-      errors[thread] = std::current_exception();
-      next = count;
-    }
-  };
-  std::vector<std::thread> threads;
-  try {
-    for (std::size_t k = 1; k < std::min(benches_.size(), count); ++k) {
-      threads.emplace_back(take, k);
-    }
-  } catch (const std::system_error&) {
-    // The system has no more threads; those that run do all the work.
-  }
-  take(0);
-  for (std::thread& thread : threads) thread.join();
-  for (const std::exception_ptr& error : errors) {
-    if (error) std::rethrow_exception(error);
-  }
-  return std::min(next.load(), count);
 }
 
 // A counting sort of the numbers of all particles by block, ascending in each block.
@@ -171,7 +98,7 @@ void Foresight<D>::sort_into_blocks(const ParticleStates<D>& gas) {
     strides[axis] = stride;
     stride *= block_counts_[axis];
   }
-  in_parallel(parts, [&](std::size_t k, Bench&) {
+  in_parallel(parts, parts, [&](std::size_t k, std::size_t) {
     auto& counts = benches_[k]->offsets;
     counts.assign(blocks, 0);
     for (std::size_t i = part(k); i < part(k + 1); ++i) {
@@ -190,7 +117,7 @@ void Foresight<D>::sort_into_blocks(const ParticleStates<D>& gas) {
     }
   }
   first_[blocks] = sum;
-  in_parallel(parts, [&](std::size_t k, Bench&) {
+  in_parallel(parts, parts, [&](std::size_t k, std::size_t) {
     auto& offsets = benches_[k]->offsets;
     for (std::size_t i = part(k); i < part(k + 1); ++i) {
       order_[offsets[block_of_[i]]++] = static_cast<std::uint32_t>(i);
@@ -481,7 +408,8 @@ void Foresight<D>::certify_all(Window& window) {
   const double bend = model_.gravity.norm() * span * span / 8.0;
   double farthest = 0.0;
   for (const Tile& tile : tiles_) farthest = std::max(farthest, tile.farthest);
-  in_parallel(tiles(), [&](std::size_t k, Bench&) { certify(tiles_[k], farthest, bend); });
+  in_parallel(benches_.size(), tiles(),
+              [&](std::size_t k, std::size_t) { certify(tiles_[k], farthest, bend); });
   for (std::size_t k = 0; k < tiles(); ++k) {
     Tile& tile = tiles_[k];
     if (tile.lack < 0.0) continue;
@@ -504,7 +432,10 @@ typename Foresight<D>::Outcome Foresight<D>::run_rounds(const ParticleStates<D>&
       return Outcome::Failed;
     Limits limits{stop, most_collisions()};
     const std::size_t count = in_parallel(
-        todo.size(), [&](std::size_t k, Bench& bench) { run(gas, limits, tiles_[todo[k]], bench); },
+        benches_.size(), todo.size(),
+        [&](std::size_t k, std::size_t thread) {
+          run(gas, limits, tiles_[todo[k]], *benches_[thread]);
+        },
         stop);
     work_.all += limits.collisions;
     if (limits.exceeded) {
@@ -558,7 +489,9 @@ typename Foresight<D>::Outcome Foresight<D>::look_ahead(const ParticleStates<D>&
       run_window(gas, horizon, kMore * static_cast<double>(most) + 1.0, true, stop);
   if (outcome != Outcome::Done) return outcome;
   note_window();
-  merge(start, end_);
+  std::vector<std::span<const ForeseenEvent<D>>> lists;
+  for (const Tile& tile : tiles_) lists.emplace_back(tile.events);
+  events_.join(lists, start, end_, benches_.size());
   return outcome;
 }
 
@@ -584,60 +517,6 @@ typename Foresight<D>::Outcome Foresight<D>::advance(EventLoop<D>& gas, double h
   note_window();
   gas.adopt(ends_, end_, pairs, walls, checks);
   return outcome;
-}
-
-// Joins the tiles' events in order. Each part of the window is sorted by one thread.
-template <int D>
-void Foresight<D>::merge(double start, double end) {
-  events_.clear();
-  waiting_.clear();
-  at_ = 0;
-  const auto sooner = [](const ForeseenEvent<D>& a, const ForeseenEvent<D>& b) {
-    return before(a.event, b.event);
-  };
-  std::size_t total = 0;
-  for (const Tile& tile : tiles_) total += tile.events.size();
-  constexpr std::size_t kInPart = 4096;
-  const std::size_t parts = total / kInPart + 1;
-  const auto bound = [&](std::size_t part) {
-    return start + (end - start) * static_cast<double>(part) / static_cast<double>(parts);
-  };
-  std::vector<std::size_t> cuts((parts + 1) * tiles_.size());
-  in_parallel(tiles_.size(), [&](std::size_t k, Bench&) {
-    const auto& events = tiles_[k].events;
-    std::size_t at = 0;
-    for (std::size_t part = 0; part < parts; ++part) {
-      const double from = part ? bound(part) : -kNever;
-      while (at < events.size() && events[at].event.time < from) ++at;
-      cuts[part * tiles_.size() + k] = at;
-    }
-    cuts[parts * tiles_.size() + k] = events.size();
-  });
-  std::vector<std::size_t> begins(parts + 1);
-  for (std::size_t part = 0; part < parts; ++part) {
-    std::size_t size = 0;
-    for (std::size_t k = 0; k < tiles_.size(); ++k) {
-      size += cuts[(part + 1) * tiles_.size() + k] - cuts[part * tiles_.size() + k];
-    }
-    begins[part + 1] = begins[part] + size;
-  }
-  events_.resize(total);
-  in_parallel(parts, [&](std::size_t part, Bench&) {
-    ForeseenEvent<D>* at = events_.data() + begins[part];
-    ForeseenEvent<D>* const first = at;
-    for (std::size_t k = 0; k < tiles_.size(); ++k) {
-      const ForeseenEvent<D>* const events = tiles_[k].events.data();
-      at = std::copy(events + cuts[part * tiles_.size() + k],
-                     events + cuts[(part + 1) * tiles_.size() + k], at);
-    }
-    std::sort(first, at, sooner);
-  });
-  // Rounding may put an event a little before its cause, into the wrong part.
-  for (std::size_t k = 1; k < total; ++k) {
-    for (std::size_t at = k; at > 0 && sooner(events_[at], events_[at - 1]); --at) {
-      std::swap(events_[at], events_[at - 1]);
-    }
-  }
 }
 
 template class Foresight<2>;

@@ -1,44 +1,25 @@
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "engine/dynamics/boundary.h"
 #include "engine/dynamics/event_loop.h"
-#include "engine/dynamics/foreseen_event.h"
+#include "engine/dynamics/foreseen_events.h"
 #include "engine/dynamics/large_array.h"
 #include "engine/dynamics/model.h"
 #include "engine/dynamics/particle_states.h"
 #include "engine/dynamics/subdomain.h"
 #include "engine/dynamics/tile_record.h"
+#include "engine/dynamics/tile_sizes.h"
 #include "engine/physics/flight.h"
 #include "engine/stop_request.h"
 
 namespace clatter {
-
-/// Sizes of tiles and windows. They affect the speed only.
-struct TileSizes {
-  double particles = 16'000.0;  ///< that a tile owns
-  double collisions = 2.0;      ///< of a particle in a window
-  double halo = 10.0;           ///< width of the first halos, in diameters
-};
-
-/// Whether a gas of so many particles runs faster in tiles than as a whole, as far as measured.
-bool runs_in_tiles(int dimension, std::size_t particles, int threads);
-
-/// Whether that holds also if an observer or the detection of collapse needs the events in order.
-/// One thread then processes all events, and fewer threads gain less than it costs.
-bool watched_runs_in_tiles(int threads);
-
-/// The best sizes for a gas of so many particles that fill a fraction of the box: each thread has
-/// several tiles. Influence travels farther in a dilute gas.
-TileSizes tile_sizes(std::size_t particles, double fraction, int threads);
 
 /// Finds the collisions of a large gas on several threads, before the run reaches their times.
 /// Tiles of the box, each with a halo of copies, run alone for a window of time. A certificate then
@@ -95,20 +76,8 @@ class Foresight {
   bool fits_before(double time) const {
     return rate_ * (time - end_) >= typical_window() || rate_ == 0.0;
   }
-  /// Whether there are foreseen events.
-  bool has_events() const { return at_ < events_.size() || !waiting_.empty(); }
-  /// The next event, or null. `is_next(event)` returns whether an event begins with the current
-  /// flights of its particles.
-  template <typename IsNext>
-  const ForeseenEvent<D>* next(const IsNext& is_next);
-  /// Removes the event that next() returned.
-  void pop();
-  /// Calls visit(event) for the event `ahead` places after the next one, so that the caller can
-  /// prefetch its data.
-  template <typename Visit>
-  void look_past(std::size_t ahead, const Visit& visit) const {
-    if (at_ + ahead < events_.size()) visit(events_[at_ + ahead]);
-  }
+  /// The events of the last window that look_ahead() has found.
+  ForeseenEvents<D>& events() { return events_; }
   /// Work so far.
   const Work& work() const { return work_; }
 
@@ -157,8 +126,6 @@ class Foresight {
   };
 
   IntVec<D> count_tiles(int threads) const;
-  std::size_t in_parallel(std::size_t count, const std::function<void(std::size_t, Bench&)>& work,
-                          const StopRequest& stop = {});
   double choose_end(const ParticleStates<D>& gas, double horizon, double most) const;
   double speed_scale(const ParticleStates<D>& gas) const;
   double most_collisions() const;
@@ -176,7 +143,6 @@ class Foresight {
   void certify(Tile& tile, double farthest, double bend) const;
   void fit_halo();
   void note_window();
-  void merge(double start, double end);
 
   const Model<D>& model_;
   TileSizes sizes_;
@@ -198,35 +164,9 @@ class Foresight {
   bool fresh_ = true;                            // no window since restart()
   double rate_ = 0.0;                            // collisions per time; 0: unknown
   double span_ = 0.0;  // of the last window, or a small part of one that was too long; 0: unknown
-  LargeArray<ForeseenEvent<D>> events_;
-  std::size_t at_ = 0;  // of the next event
-  // Events that come after a simultaneous one by rounding, although their times are earlier.
-  std::vector<ForeseenEvent<D>> waiting_;
-  bool from_waiting_ = false;
+  ForeseenEvents<D> events_;
   Work work_;
 };
-
-template <int D>
-template <typename IsNext>
-const ForeseenEvent<D>* Foresight<D>::next(const IsNext& is_next) {
-  from_waiting_ = false;
-  if (!waiting_.empty()) [[unlikely]] {
-    const auto sooner = [](const auto& a, const auto& b) { return before(b.event, a.event); };
-    std::ranges::stable_sort(waiting_, sooner);
-    for (std::size_t k = waiting_.size(); k-- > 0;) {
-      if (!is_next(waiting_[k])) continue;
-      std::rotate(waiting_.begin() + static_cast<std::ptrdiff_t>(k),
-                  waiting_.begin() + static_cast<std::ptrdiff_t>(k) + 1, waiting_.end());
-      from_waiting_ = true;
-      return &waiting_.back();
-    }
-  }
-  for (; at_ < events_.size(); ++at_) {
-    if (is_next(events_[at_])) return &events_[at_];
-    waiting_.push_back(events_[at_]);
-  }
-  return nullptr;
-}
 
 extern template class Foresight<2>;
 extern template class Foresight<3>;

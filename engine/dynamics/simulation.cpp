@@ -220,7 +220,7 @@ template <int D>
 bool Simulation<D>::advance_window(double stop, std::uint64_t collisions, std::uint64_t steps,
                                    const StopRequest& stop_request) {
   constexpr double kReserve = 1.2;  // a window may have more events than expected
-  if (loop_.is_watched() || model_.contact_time || foresight_->has_events()) return false;
+  if (loop_.is_watched() || model_.contact_time || !foresight_->events().empty()) return false;
   if (counts().collisions() >= collisions || counts().steps() >= steps) return false;
   const std::uint64_t most = std::min(
       {loop_.until_base_moves(), collisions - counts().collisions(), steps - counts().steps()});
@@ -238,7 +238,7 @@ typename EventLoop<D>::Halt Simulation<D>::follow_foresight(double stop, std::ui
   constexpr std::size_t kAhead = 12;  // events whose particles are prefetched
   const auto is_next = [this](const ForeseenEvent<D>& event) { return loop_.is_next(event); };
   while (counts().collisions() < collisions && counts().steps() < steps) {
-    const ForeseenEvent<D>* next = foresight_->next(is_next);
+    const ForeseenEvent<D>* next = foresight_->events().next(is_next);
     if (!next) {
       if (foresight_->covers(stop)) return Halt::Time;
       const auto outcome =
@@ -248,10 +248,10 @@ typename EventLoop<D>::Halt Simulation<D>::follow_foresight(double stop, std::ui
       return Halt::Limit;
     }
     if (next->event.time > stop) return Halt::Time;
-    foresight_->look_past(
+    foresight_->events().look_past(
         kAhead, [this](const ForeseenEvent<D>& later) { loop_.prefetch_particles(later.event); });
     const Halt halt = loop_.process_foreseen(*next);
-    foresight_->pop();
+    foresight_->events().pop();
     if (halt != Halt::Limit) return halt;
   }
   return Halt::Limit;
