@@ -3,10 +3,12 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <chrono>
 #include <thread>
 
+#include "engine/publish/watched_run.h"
 #include "engine/scene/scene_file.h"
 #include "tests/app/offscreen_window.h"
 #include "tests/support/messages.h"
@@ -70,6 +72,21 @@ TEST_CASE("Window texts: the settings of lecture mode, each explained") {
                      {"lecture.plot_of", "The large plot"},
                      {"lecture.captions", "The caption of the scene"},
                      {"lecture.theme", "Colours in lecture mode"}});
+}
+
+TEST_CASE("Window texts: the effect of the contact time is that of a frame of the engine") {
+  const Scene scene = load_scene("vibrated", {{"collapse.contact_time", "0.05"}});
+  const auto run = watched_run(scene, 1);
+  run->run_until(1.0, kNoLimit, kNoLimit);
+  Frame frame;
+  run->tell(frame, true);
+  REQUIRE(frame.contact_time_error);
+  OffscreenWindow window(scene, 1280.0f, 1840.0f, 1.0);
+  window.settle();
+  const auto percent = [](double share) { return fmt::format("{:.2g} %", 100.0 * share); };
+  CHECK(says(window.text("left"),
+             "Not dissipated: " + percent(frame.contact_time_error->undissipated) +
+                 " Elastic collisions: " + percent(frame.contact_time_error->elasticised)));
 }
 
 TEST_CASE("Window texts: a card of the gallery has title, name, caption, goal and suggestion") {
