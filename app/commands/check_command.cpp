@@ -13,9 +13,10 @@
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
 #include "app/system/process_usage.h"
-#include "engine/dynamics/foresight.h"
+#include "engine/dynamics/tile_sizes.h"
 #include "engine/physics/theory.h"
 #include "engine/scene/piston.h"
+#include "engine/scene/text.h"
 
 namespace clatter {
 
@@ -73,8 +74,10 @@ int check(const CommonOptions& options) {
   print(scene_to_toml(scene));
   if (options.quiet) return kOk;
   const bool disks = scene.dimension() == 2;
-  std::fprintf(stderr, "The scene is valid: %d %s, %s fraction %.4f", scene.particles.count,
-               disks ? "disks" : "spheres", disks ? "area" : "volume", scene.packing_fraction());
+  const auto count = static_cast<std::size_t>(scene.particles.count);
+  std::fprintf(stderr, "The scene is valid: %s, %s fraction %.4f",
+               counted(count, disks ? "disk" : "sphere").c_str(), disks ? "area" : "volume",
+               scene.packing_fraction());
   if (options.seed) std::fprintf(stderr, ", seed %s", std::to_string(*options.seed).c_str());
   if (const auto added = final_count(scene) - scene.particles.count; added > 0) {
     std::fprintf(stderr, "; its changes add %s", std::to_string(added).c_str());

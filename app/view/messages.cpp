@@ -6,6 +6,8 @@
 #include <array>
 #include <string>
 
+#include "engine/scene/text.h"
+
 namespace clatter {
 
 // A small window that ignores the mouse. `wrap` is its largest width; 0: unlimited.
@@ -48,7 +50,9 @@ void opening_note(Session& session, Controls& controls, const Area& area) {
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
   const Scene& scene = session.scene();
-  ImGui::Text("Placing %d %s", scene.particles.count, scene.dimension() == 2 ? "disks" : "spheres");
+  ImGui::Text("Placing %s", counted(static_cast<std::size_t>(scene.particles.count),
+                                    scene.dimension() == 2 ? "disk" : "sphere")
+                                .c_str());
   ImGui::ProgressBar(static_cast<float>(*session.frame().opening));
   if (session.frame().run > 0 &&
       controls.button("opening.cancel", "Cancel", "Keeps the former gas (Esc)",

@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <chrono>
+#include <fstream>
 #include <thread>
 
 #include "tests/app/logged_widgets.h"
@@ -68,6 +69,13 @@ void OffscreenWindow::press(char letter) {
 
 void OffscreenWindow::press_key(int key) {
   input_.press({.key = key});
+  draw();
+}
+
+void OffscreenWindow::drop(const std::string& scene) {
+  const auto file = folder_ / "dropped.toml";
+  std::ofstream(file) << scene;
+  input_.drop(file);
   draw();
 }
 

@@ -32,6 +32,8 @@ class OffscreenWindow {
   void press(char letter);
   /// Presses the key with this code of GLFW.
   void press_key(int key);
+  /// Drops a scene of this text on the window.
+  void drop(const std::string& scene);
   /// Moves the mouse to these shares of the width and height of a widget with this name in the
   /// script log.
   void point_at(const std::string& widget, float right, float down);

@@ -105,6 +105,7 @@ TEST_CASE("Commands: check has the prices of gravity, kicks, walls, balances and
   const std::string balances = checked("[\"balance\"]'");
   CAPTURE(balances);
   CHECK(says(balances, "The scene is valid: 25 disks, area fraction 0.1963."));
+  CHECK(says(shell.run("clatter check gas.toml --set particles.count=1").err, ": 1 disk, "));
   CHECK(says(balances, "about 2.72e+03 collisions, 200 kicks"));
   CHECK(row(balances, "bulk drive") == "x1.83  yes");
   CHECK(row(balances, "moving walls") == "x1  yes");

@@ -89,6 +89,20 @@ TEST_CASE("Window texts: the effect of the contact time is that of a frame of th
                  " Elastic collisions: " + percent(frame.contact_time_error->elasticised)));
 }
 
+TEST_CASE(
+    "Window texts: while disks are placed a note counts them, and its button keeps the former "
+    "gas") {
+  OffscreenWindow window(load_scene("conduction"));
+  window.drop("box.size = [900.0, 900.0]\nparticles.count = 500000");
+  CHECK(window.comes_to_say("opening", "Placing 500000 disks"));
+  CHECK(says(window.text("opening"), "Cancel"));
+  CHECK(window.tooltip("opening.cancel") == "Keeps the former gas (Esc)");
+  window.click("opening.cancel");
+  window.settle();
+  CHECK(window.text("opening").empty());
+  CHECK(says(window.text("top"), load_scene("conduction").title));
+}
+
 TEST_CASE("Window texts: a card of the gallery has title, name, caption, goal and suggestion") {
   OffscreenWindow window(load_scene("conduction"));
   window.press('g');
