@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/runs/frame_times.h"
+#include "render/output/image.h"
 #include "tests/app/film_scene.h"
 
 namespace clatter {
