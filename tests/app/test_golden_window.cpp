@@ -28,6 +28,18 @@ Scene golden_scene(const std::string& keys) {
   return parse_scene(keys, "golden");
 }
 
+// The pixels of a widget.
+Image part_of(const Image& image, const std::array<float, 4>& place) {
+  const auto [left, top, width, height] = place;
+  Image part{{static_cast<int>(width), static_cast<int>(height)}, {}};
+  for (int y = 0; y < part.size.height; ++y) {
+    const auto row = image.rgba.begin() +
+                     4 * ((static_cast<int>(top) + y) * image.size.width + static_cast<int>(left));
+    part.rgba.insert(part.rgba.end(), row, row + 4 * part.size.width);
+  }
+  return part;
+}
+
 const std::string kBox = R"(
 title = "Conduction"
 caption = "From the hot wall to the cold one."
@@ -47,6 +59,7 @@ TEST_CASE("Golden window: all panels, a slider under the mouse") {
   if (!draws_the_same()) return;
   OffscreenWindow window(golden_scene(kBox), 1100.0f, 1500.0f);
   window.press('p');
+  window.settle();
   window.point_at("particles.restitution", 0.5f, 1.15f);  // thin sliders have a margin
   testing::check_golden("window_panels", window.picture());
 }
@@ -96,6 +109,7 @@ TEST_CASE("Golden window: lecture mode with its settings") {
   if (!draws_the_same()) return;
   OffscreenWindow window(golden_scene(kBox), 1000.0f, 640.0f);
   window.press('l');
+  window.settle();
   window.click("tool.heat");
   window.click("lecture.settings");
   window.point_at("viewport", 0.4f, 0.4f);
@@ -106,9 +120,28 @@ TEST_CASE("Golden window: lecture mode with sliders and a plot") {
   if (!draws_the_same()) return;
   OffscreenWindow window(golden_scene(kBox), 1000.0f, 640.0f);
   window.press('l');
+  window.settle();
   window.click("lecture.timeline");
   window.click("lecture.pointer");
   testing::check_golden("window_lecture_plot", window.picture());
+}
+
+TEST_CASE("Golden window: lecture mode in a small window, with a caption below the title") {
+  if (!draws_the_same()) return;
+  OffscreenWindow window(golden_scene(kBox), 290.0f, 700.0f);
+  window.press('l');
+  window.settle();
+  testing::check_golden("window_lecture_small", window.picture());
+}
+
+TEST_CASE("Golden window: the button that pauses a gas") {
+  if (!draws_the_same()) return;
+  OffscreenWindow window(golden_scene(kBox), 900.0f, 600.0f);
+  window.press_key(GLFW_KEY_SPACE);
+  window.point_at("play", 0.5f, 0.5f);
+  REQUIRE(window.comes_to_say("##Tooltip", "Pause"));
+  const Image icon = part_of(window.picture(), window.place("play"));
+  testing::check_golden("window_pause", icon);
 }
 
 TEST_CASE("Golden window: the gallery") {
@@ -144,7 +177,7 @@ TEST_CASE("Golden window: the state of a particle, and the arrow that throws ano
   window.point_at("viewport", 0.55f, 0.53f);
   window.hold(true);
   window.hold(false);
-  window.settle();
+  REQUIRE(window.comes_to_say("particle", "next collision"));
   window.click("tool.throw");
   window.point_at("viewport", 0.45f, 0.5f);
   window.hold(true);
@@ -167,6 +200,7 @@ TEST_CASE("Golden window: compared gases and a tooltip of their plots") {
   window.press('n');
   window.settle();
   window.press('p');
+  window.settle();
   window.point_at("plots.profile", 0.5f, 0.5f);
   testing::check_golden("window_compared", window.picture());
 }

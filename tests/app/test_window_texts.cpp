@@ -164,9 +164,10 @@ TEST_CASE("Window texts: each button of a narrow window opens the sheet of its n
 }
 
 TEST_CASE("Window texts: the plot of lecture mode takes a third of the window, beside the gas") {
-  OffscreenWindow window(load_scene("conduction"), 1500.0f, 950.0f);
+  OffscreenWindow window(load_scene("conduction"), 1500.0f, 700.0f);
   window.press('l');
   const auto [left, top, width, height] = window.place("lecture.plot");
+  CHECK(height < 0.3f * 1500.0f);
   CHECK(width > 0.3f * 1500.0f);
   CHECK(width < 0.4f * 1500.0f);
   CHECK(left + width < 1500.0f);
