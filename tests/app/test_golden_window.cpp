@@ -185,6 +185,18 @@ TEST_CASE("Golden window: the state of a particle, and the arrow that throws ano
   testing::check_golden("window_throw", window.picture());
 }
 
+TEST_CASE(
+    "Golden window: a tool that heats, and one that adds particles, with its sliders and its "
+    "hint") {
+  if (!draws_the_same()) return;
+  OffscreenWindow window(golden_scene(kBox), 800.0f, 500.0f);
+  for (const std::string tool : {"heat", "add"}) {
+    window.click("tool." + tool);
+    window.point_at("viewport", 0.6f, 0.4f);
+    testing::check_golden("window_" + tool, window.picture());
+  }
+}
+
 TEST_CASE("Golden window: a long list in a sheet of a narrow window") {
   if (!draws_the_same()) return;
   OffscreenWindow window(golden_scene(kBox), 420.0f, 700.0f);
