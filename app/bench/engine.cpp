@@ -184,7 +184,7 @@ int bench_engine(const std::string& json, const EngineTable& table) {
   return kOk;
 }
 
-int bench_growth(const std::string& json, const std::string& plot, int count) {
+std::vector<EngineCell> growth_cells(int count) {
   constexpr double kMiddle = 0.5;  // area fraction with the largest numbers
   std::vector<EngineCell> cells;
   for (const double phi : {0.01, 0.1, 0.3, kMiddle, 0.7, 0.88}) {
@@ -194,9 +194,13 @@ int bench_growth(const std::string& json, const std::string& plot, int count) {
       if (wanted && has_room(disks, phi, 2)) cells.emplace_back(disks, phi);
     }
   }
+  return cells;
+}
+
+int bench_growth(const std::string& json, const std::string& plot, int count) {
   if (!plot.empty()) require_writable_file(plot, "--plot");
   std::vector<EngineRate> rates;
-  Json rows = print_rates(cells, 2, rates);
+  Json rows = print_rates(growth_cells(count), 2, rates);
   // A small gas cools into one cluster with hardly any collisions.
   for (Json& row : print_inhomogeneous(count > 0 ? std::clamp(count, 20'000, 100'000) : 100'000)) {
     rows.push_back(std::move(row));

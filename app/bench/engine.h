@@ -31,6 +31,8 @@ using EngineCell = std::pair<int, double>;
 
 /// The rows of the engine's table, in order.
 std::vector<EngineCell> engine_cells(const EngineTable& table);
+/// The rows of the table of growth for disks up to a number, in order; 0: all.
+std::vector<EngineCell> growth_cells(int count);
 
 /// A measured cell of the engine's table.
 struct EngineRate {

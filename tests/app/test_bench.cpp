@@ -117,6 +117,12 @@ TEST_CASE("Bench: the table of accuracy compares each setting of a dial with the
       CHECK(setting.at("cpu_seconds_per_time") > 1e-6);
       CHECK(setting.at("cpu_seconds_per_time") < 1.0);
       CHECK(setting.at("events_per_cpu_second") > 1e3);
+      // `clatter measure` counts 140 collisions per time unit; a long t_c has more. The cost is
+      // that of the fastest run, so the product may be smaller.
+      const double per_time = setting.at("events_per_cpu_second").get<double>() *
+                              setting.at("cpu_seconds_per_time").get<double>();
+      CHECK(per_time < 1.6 * 140.0);
+      CHECK(per_time > 0.2 * 140.0);
       // The address sanitizer does not report the heap.
       if (!is_sanitized()) CHECK(setting.at("bytes") > 1e3);
       CHECK(setting.at("deepest_overlap") < 1e-9);
@@ -315,6 +321,7 @@ TEST_CASE("Bench: the table of render has the cost of each stage, for pictures o
     CAPTURE(outcome.err);
     CHECK(outcome.code == 0);
     CHECK(outcome.err.starts_with("elastic " + particles));
+    CHECK(says(outcome.err, "with its parts " + particles + ", heatmap and overlay"));
     CHECK(std::ranges::count(outcome.out, '\n') == 3);
     const json rows = json::parse(shell.read("table.json"));
     REQUIRE(rows.size() == 2);

@@ -126,6 +126,7 @@ TEST_CASE("Bench: a cell of the table of cores has the gas as a whole and in til
     CHECK(row["busy"] <= 1.1);
   }
   CHECK(threads == std::vector<int>{0, 1, 2, 3});
+  CHECK(std::regex_search(outcome.out, std::regex("\n +100000 +0\\.250 +whole ")));
   check_columns(outcome.out, rows, "N phi threads Mcoll/s of whole busy redundant redone",
                 {{"million_collisions_per_second", " %.3f"},
                  {"of_whole", " %.2f"},
@@ -194,6 +195,20 @@ TEST_CASE("Bench: a fraction that no box holds is refused under the flag that ga
                                 ": no square or cubic box holds this number of particles"));
     CHECK(says(outcome.err, "choose a smaller fraction, or another --count"));
   }
+}
+
+TEST_CASE("Bench: the cells of the table of growth, by fraction and then by number") {
+  std::vector<EngineCell> cells;
+  for (const double phi : {0.01, 0.1, 0.3, 0.5, 0.7, 0.88}) {
+    for (int count = 100; count <= 100'000; count *= 10) {
+      // The boxes of 100 and of 1000 disks at 0.88 hold 90 and 986 disks in whole hexagonal rows.
+      if (phi < 0.8 || count > 1000) cells.emplace_back(count, phi);
+    }
+    if (phi == 0.5) cells.insert(cells.end(), {{1'000'000, phi}, {4'000'000, phi}});
+  }
+  CHECK(growth_cells(0) == cells);
+  std::erase_if(cells, [](const EngineCell& cell) { return cell.first > 1000; });
+  CHECK(growth_cells(1000) == cells);
 }
 
 TEST_CASE("Bench: the table of growth has the numbers and fractions of its limit" *
