@@ -297,6 +297,7 @@ TEST_CASE("Mouse tools: the dragged right wall is a piston, and undo takes its s
   double before = 20.0;
   for (const json& stroke : driver.events("piston")) {
     CHECK(stroke["position"] < before);
+    CHECK(stroke["duration"] == 0.2);
     before = stroke["position"];
   }
   // The handle follows the wall.

@@ -158,6 +158,8 @@ TEST_CASE("Session: undo after another scene was opened restores seed and saved 
   session.open(parse_scene(SessionDriver::kScene, "gas"), 9, false);
   driver.answer();
   CHECK(session.frame().seed == 9);
+  CHECK(driver.logged("open")["gases"] == 1);
+  CHECK(driver.logged("open")["command"] == SessionDriver::kOpened + 1);
   session.undo();
   driver.answer();
   CHECK(session.frame().seed == 7);
@@ -201,8 +203,8 @@ TEST_CASE("Session: the script log has each value under its name") {
   CHECK(opened["dimension"] == 2);
   CHECK(opened["gases"] == 1);
   CHECK(opened["command"] == 1);
-  driver.go_to(2.0);
-  CHECK(driver.logged("play")["until"] == 2.0);
+  driver.go_to(2.5);
+  CHECK(driver.logged("play")["until"] == 2.5);
   CHECK(driver.logged("play")["command"] == 2);
   session.jump(1.5);
   driver.answer();
@@ -234,6 +236,10 @@ TEST_CASE("Session: the script log has each value under its name") {
   driver.answer();
   CHECK(driver.logged("reset")["seed"] == 8);
   CHECK(driver.logged("reset")["command"] == 6);
+  session.play(true);
+  CHECK(driver.logged("play")["command"] == 7);
+  session.play(false);
+  CHECK(driver.logged("pause")["command"] == 8);
 }
 
 }  // namespace clatter
