@@ -98,6 +98,7 @@ set = { "particles.restitution" = 0.8 }
   window.settle();
   window.point_at("timeline.change.1", 0.5f, 0.5f);
   testing::check_golden("window_timeline", window.picture());
+  CHECK(window.tooltip("timeline.change.0") == "t = 1 to 2.5 walls.left.temperature = 3.0");
   ImGui::GetIO().KeyShift = true;
   window.point_at("timeline", 0.3f, 0.6f);
   window.hold(true);
@@ -215,6 +216,18 @@ TEST_CASE("Golden window: compared gases and a tooltip of their plots") {
   window.settle();
   window.point_at("plots.profile", 0.5f, 0.5f);
   testing::check_golden("window_compared", window.picture());
+}
+
+TEST_CASE("Golden window: the question before changes are lost") {
+  if (!draws_the_same()) return;
+  OffscreenWindow window(golden_scene(kBox), 800.0f, 500.0f);
+  window.click("tool.heat");
+  window.click("viewport");
+  window.settle();
+  window.drop(kBox);
+  ImGui::GetIO().MousePos = ImVec2(-1.0f, -1.0f);
+  window.draw();
+  testing::check_golden("window_question", window.picture());
 }
 
 TEST_CASE("Golden window: the list of keys") {

@@ -93,24 +93,59 @@ TEST_CASE("Session: undo removes the last acts that are alike, and redo brings t
   SessionDriver driver;
   Session& session = driver.session;
   act(driver, {heated(1.5)});
-  driver.go_to(1.0);
+  driver.go_to(2.0);
   act(driver, {heated(1.25), heated(1.5)});
   CHECK(scales(session) == std::vector{1.5, 1.25, 1.5});
   const std::uint64_t heated_twice = *session.frame().state_hash;
   session.undo();
   driver.answer();
   CHECK(scales(session) == std::vector{1.5});
-  CHECK(session.frame().scene->changes[0].time < 1.0);
-  CHECK(session.frame().snapshot.time == 1.0);
+  CHECK(session.frame().scene->changes[0].time < 2.0);
+  CHECK(session.frame().snapshot.time == 2.0);
   const json undone = driver.logged("replace_changes");
   CHECK(undone["changes"] == 1);
-  CHECK(undone["from"] == 1.0);
+  CHECK(undone["from"] == 2.0);
   CHECK(undone["command"] == SessionDriver::kOpened + 5);
   session.redo();
   driver.answer();
   CHECK(scales(session) == std::vector{1.5, 1.25, 1.5});
-  CHECK(session.frame().scene->changes[1].time == 1.0);
+  CHECK(session.frame().scene->changes[1].time == 2.0);
   CHECK(session.frame().state_hash == heated_twice);
+}
+
+TEST_CASE("Session: undo finds an act before later changes of laws") {
+  SessionDriver driver;
+  Session& session = driver.session;
+  driver.go_to(1.0);
+  act(driver, {heated(1.5)});
+  const std::vector<Override> usual = {{"particles.restitution", "0.95"}},
+                              less = {{"particles.restitution", "0.8"}};
+  session.set(less);
+  session.remember({.before = usual, .after = less});
+  driver.answer();
+  for (const std::size_t changes : {3u, 2u}) {
+    session.undo();
+    driver.answer();
+    CHECK(session.frame().scene->changes.size() == changes);
+  }
+  for (const Change& change : session.frame().scene->changes) CHECK_FALSE(change.nudge);
+}
+
+TEST_CASE("Session: undo of an act at the head is no part of an earlier fork") {
+  SessionDriver driver;
+  Session& session = driver.session;
+  driver.go_to(2.0);
+  session.jump(1.5);
+  driver.answer();
+  act(driver, {heated(1.5)});
+  driver.go_to(2.5);
+  act(driver, {heated(1.25)});
+  CHECK(scales(session) == std::vector{1.5, 1.25});
+  for (const auto& left : {std::vector{1.5}, std::vector<double>{}}) {
+    session.undo();
+    driver.answer();
+    CHECK(scales(session) == left);
+  }
 }
 
 TEST_CASE("Session: undo of a second fork exchanges its own futures") {
@@ -232,6 +267,12 @@ TEST_CASE("Session: the script log has each value under its name") {
   CHECK(status["flights"] == 0);
   CHECK(status["restitution"] == 0.85);
   CHECK(status["collisions"] == session.frame().snapshot.collisions);
+  View view = session.view();
+  view.azimuth = 30.0;
+  view.elevation = 10.0;
+  session.set_view(view);
+  CHECK(driver.logged("turn")["azimuth"] == 30.0);
+  CHECK(driver.logged("turn")["elevation"] == 10.0);
   session.restart_with_new_seed();
   driver.answer();
   CHECK(driver.logged("reset")["seed"] == 8);
