@@ -5,17 +5,18 @@
 
 namespace clatter {
 
-/// Events per second of real time over about the last half second.
+/// Events per second of real time over about the last half second. The first rate follows after a
+/// tenth of a second.
 class EventRate {
  public:
   /// Takes the number of events so far.
   void count(std::uint64_t events) {
-    constexpr std::chrono::milliseconds kLong{500};
+    constexpr std::chrono::milliseconds kFirst{100}, kLong{500};
     const auto now = Clock::now();
     if (since_ == Clock::time_point{}) {
       since_ = now;
       events_then_ = events;
-    } else if (now - since_ > kLong) {
+    } else if (now - since_ > (per_second_ > 0.0 ? kLong : kFirst)) {
       per_second_ = static_cast<double>(events - events_then_) /
                     std::chrono::duration<double>(now - since_).count();
       since_ = now;
