@@ -10,9 +10,9 @@
 namespace clatter {
 
 /// Runs that are compared, at the same simulation time. The selected one leads: it determines the
-/// end of each stretch, and the others run to the same time. Changes of laws, nudges, puffs, strokes,
-/// futures, picks and clicks concern the selected run only. Times and profiles concern all runs,
-/// views those of its dimension.
+/// end of each stretch, and the others run to the same time. Changes of laws, nudges, puffs,
+/// strokes, futures, picks and clicks concern the selected run only. Times and profiles concern all
+/// runs, views those of its dimension.
 ///
 /// A frame is that of the selected run, with the frames of the others in Frame::beside. Each run
 /// has the bits that it has alone. Where a run stops, all go to this time.

@@ -33,10 +33,11 @@ class SessionDriver {
     REQUIRE(answered());
   }
 
+  // Plays up to a simulation time.
   void go_to(double time) {
     session.play_until(time);
-    session.update();
-    while (session.frame().snapshot.time < time) answer();
+    answer();
+    REQUIRE(session.frame().snapshot.time == time);
   }
 
   // The newest event of a name in the script log.
