@@ -152,6 +152,7 @@ void Gui::panels() {
   const float unit = ImGui::GetFontSize();
   panels_.narrow = whole.x < kNarrowText * unit + kNarrowFrames * ImGui::GetFrameHeight();
   if (panels_.narrow) return sheets();
+  // The least width has room for the longest indented name and its number.
   const float width = std::round(
       std::clamp(kPanelShare * whole.x, 0.88f * kPanelWidth * unit, 1.3f * kPanelWidth * unit));
   if (panels_.panels) {

@@ -27,7 +27,7 @@ namespace clatter {
 /// their speed and publishes frames. Errors become messages in frames.
 class EngineWork {
  public:
-  using Clock = Pace::Clock;
+  using Clock = Pace::Clock;  ///< of real time
 
   /// Takes commands from a queue, and publishes frames in a buffer. After each frame it calls
   /// `on_publish`. The record of a run's past states has at most `record_bytes`.

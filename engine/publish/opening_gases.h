@@ -16,6 +16,7 @@ class OpeningGases {
   /// ones; nullptr: there are none. Throws UserError if the machine has not enough memory.
   OpeningGases(const command::Open& asked, const GasesInStep* present, std::size_t record_bytes);
 
+  /// The command.
   const command::Open& asked() const { return asked_; }
   /// Continues until all runs are complete. Returns at a request to pause. Throws PhysicalStop if a
   /// state is impossible.

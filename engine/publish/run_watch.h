@@ -39,13 +39,19 @@ class RunWatch {
 
   /// Shows a view of the run.
   void show(const View& view);
-  /// See WatchedRun for these.
+  /// Frames have this profile, along an axis, from now on.
   void show_profile(Profiled what, Axis axis);
+  /// Begins or ends to record clicks.
   void listen(bool on);
+  /// The clicks since the last call; empty: nobody listens.
   std::vector<Click> take_clicks() { return clicks_ ? clicks_->take() : std::vector<Click>(); }
+  /// Frames have the last and next collision of this particle; absent: of none.
   void pick(std::optional<std::uint32_t> particle);
+  /// Whether the search for the next collision of the picked particle continues.
   bool looks_ahead() const;
+  /// The last collision of two particles, and the search for one before a time.
   LastCollision<D>& last_collision() { return last_; }
+  /// The same of a watch that does not change.
   const LastCollision<D>& last_collision() const { return last_; }
 
   /// Writes the measured parts of a frame.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -33,7 +34,8 @@ inline std::vector<nlohmann::json> widgets_in(const std::filesystem::path& log) 
 inline bool at_rest(const std::filesystem::path& log) {
   nlohmann::json sent = 0, status;
   for (const nlohmann::json& event : events_in(log)) {
-    if (event.contains("command")) sent = event["command"];
+    // Answers have the number of their command too.
+    if (event.contains("command")) sent = std::max(sent, event["command"]);
     if (event["event"] == "status") status = event;
   }
   return status["handled"] == sent && status["plays"] == false;

@@ -18,10 +18,12 @@ namespace {
 
 // Other versions of Dear ImGui draw widgets in another way. CTest reports a case as skipped if it
 // prints so.
-bool draws_the_same() {
-  const bool same = std::string(ImGui::GetVersion()) == "1.86";
-  if (!same) MESSAGE("[skipped] the pictures are those of Dear ImGui 1.86");
-  return same;
+void check_panels(const std::string& name, const Image& picture) {
+  if (std::string(ImGui::GetVersion()) != "1.86") {
+    MESSAGE("[skipped] the pictures are those of Dear ImGui 1.86");
+    return;
+  }
+  testing::check_golden(name, picture);
 }
 
 Scene golden_scene(const std::string& keys) {
@@ -56,23 +58,20 @@ walls.top = { kind = "static" }
 }  // namespace
 
 TEST_CASE("Golden window: all panels, a slider under the mouse") {
-  if (!draws_the_same()) return;
   OffscreenWindow window(golden_scene(kBox), 1100.0f, 1500.0f);
   window.press('p');
   window.settle();
   window.point_at("particles.restitution", 0.5f, 1.15f);  // thin sliders have a margin
-  testing::check_golden("window_panels", window.picture());
+  check_panels("window_panels", window.picture());
 }
 
 TEST_CASE("Golden window: light colours and an open list") {
-  if (!draws_the_same()) return;
   OffscreenWindow window(golden_scene(kBox + "view.theme = \"light\""), 800.0f, 600.0f);
   window.click("walls.left");
-  testing::check_golden("window_list", window.picture());
+  check_panels("window_list", window.picture());
 }
 
 TEST_CASE("Golden window: marks, a loop and a second future on the timeline") {
-  if (!draws_the_same()) return;
   OffscreenWindow window(golden_scene(kBox + R"(
 view.speed = 50.0
 [[change]]
@@ -97,63 +96,57 @@ set = { "particles.restitution" = 0.8 }
   window.click("viewport");
   window.settle();
   window.point_at("timeline.change.1", 0.5f, 0.5f);
-  testing::check_golden("window_timeline", window.picture());
+  check_panels("window_timeline", window.picture());
   CHECK(window.tooltip("timeline.change.0") == "t = 1 to 2.5 walls.left.temperature = 3.0");
   ImGui::GetIO().KeyShift = true;
   window.point_at("timeline", 0.3f, 0.6f);
   window.hold(true);
   window.point_at("timeline", 0.5f, 0.6f);
-  testing::check_golden("window_loop", window.picture());
+  check_panels("window_loop", window.picture());
 }
 
 TEST_CASE("Golden window: lecture mode with its settings") {
-  if (!draws_the_same()) return;
   OffscreenWindow window(golden_scene(kBox), 1000.0f, 640.0f);
   window.press('l');
   window.settle();
   window.click("lecture.settings");
-  testing::check_golden("window_lecture", window.picture());
+  check_panels("window_lecture", window.picture());
 }
 
 TEST_CASE("Golden window: lecture mode with sliders and a plot") {
-  if (!draws_the_same()) return;
   OffscreenWindow window(golden_scene(kBox), 1000.0f, 640.0f);
   window.press('l');
   window.settle();
   window.click("lecture.timeline");
   window.click("lecture.pointer");
-  testing::check_golden("window_lecture_plot", window.picture());
+  check_panels("window_lecture_plot", window.picture());
 }
 
 TEST_CASE("Golden window: lecture mode in a small window, with a caption below the title") {
-  if (!draws_the_same()) return;
   OffscreenWindow window(golden_scene(kBox), 290.0f, 700.0f);
   window.press('l');
   window.settle();
-  testing::check_golden("window_lecture_small", window.picture());
+  check_panels("window_lecture_small", window.picture());
 }
 
 TEST_CASE("Golden window: the button that pauses a gas") {
-  if (!draws_the_same()) return;
   OffscreenWindow window(golden_scene(kBox), 900.0f, 600.0f);
   window.press_key(GLFW_KEY_SPACE);
   window.point_at("play", 0.5f, 0.5f);
   REQUIRE(window.comes_to_say("##Tooltip", "Pause"));
   const Image icon = part_of(window.picture(), window.place("play"));
-  testing::check_golden("window_pause", icon);
+  check_panels("window_pause", icon);
 }
 
 TEST_CASE("Golden window: the gallery") {
-  if (!draws_the_same()) return;
   OffscreenWindow window(golden_scene(kBox), 800.0f, 600.0f);
   window.press('g');
   window.settle();
   window.point_at("gallery.conduction", 0.5f, 0.5f);
-  testing::check_golden("window_gallery", window.picture());
+  check_panels("window_gallery", window.picture());
 }
 
 TEST_CASE("Golden window: a wall of a sphere gas is dragged") {
-  if (!draws_the_same()) return;
   OffscreenWindow window(golden_scene(R"(
 box.size = [10.0, 7.0, 8.0]
 particles = { count = 150, restitution = 0.9 }
@@ -167,11 +160,10 @@ walls.front = { kind = "sinusoidal", stroke = 0.5, frequency = 0.5 }
   window.point_at("wall.right", 0.5f, 0.5f);
   window.hold(true);
   window.point_at("wall.right", 0.8f, 0.7f);
-  testing::check_golden("window_spheres", window.picture());
+  check_panels("window_spheres", window.picture());
 }
 
 TEST_CASE("Golden window: the state of a particle, and the arrow that throws another one") {
-  if (!draws_the_same()) return;
   OffscreenWindow window(load_scene("cradle"), 800.0f, 500.0f);
   window.point_at("viewport", 0.55f, 0.53f);
   window.hold(true);
@@ -181,31 +173,28 @@ TEST_CASE("Golden window: the state of a particle, and the arrow that throws ano
   window.point_at("viewport", 0.45f, 0.5f);
   window.hold(true);
   window.point_at("viewport", 0.3f, 0.8f);
-  testing::check_golden("window_throw", window.picture());
+  check_panels("window_throw", window.picture());
 }
 
 TEST_CASE(
     "Golden window: a tool that heats, and one that adds particles, with its sliders and its "
     "hint") {
-  if (!draws_the_same()) return;
   OffscreenWindow window(golden_scene(kBox), 800.0f, 500.0f);
   for (const std::string tool : {"heat", "add"}) {
     window.click("tool." + tool);
     window.point_at("viewport", 0.6f, 0.4f);
-    testing::check_golden("window_" + tool, window.picture());
+    check_panels("window_" + tool, window.picture());
   }
 }
 
 TEST_CASE("Golden window: a long list in a sheet of a narrow window") {
-  if (!draws_the_same()) return;
   OffscreenWindow window(golden_scene(kBox), 420.0f, 700.0f);
   window.click("sheet.view");
   window.click("view.field");
-  testing::check_golden("window_narrow", window.picture());
+  check_panels("window_narrow", window.picture());
 }
 
 TEST_CASE("Golden window: compared gases and a tooltip of their plots") {
-  if (!draws_the_same()) return;
   const Scene scene = golden_scene(kBox);
   OffscreenWindow window(scene, 900.0f, 600.0f, 0.0, {scene, scene});
   window.press('n');
@@ -213,11 +202,10 @@ TEST_CASE("Golden window: compared gases and a tooltip of their plots") {
   window.press('p');
   window.settle();
   window.point_at("plots.profile", 0.5f, 0.5f);
-  testing::check_golden("window_compared", window.picture());
+  check_panels("window_compared", window.picture());
 }
 
 TEST_CASE("Golden window: the question before changes are lost") {
-  if (!draws_the_same()) return;
   OffscreenWindow window(golden_scene(kBox), 800.0f, 500.0f);
   window.click("tool.heat");
   window.click("viewport");
@@ -225,14 +213,13 @@ TEST_CASE("Golden window: the question before changes are lost") {
   window.drop(kBox);
   ImGui::GetIO().MousePos = ImVec2(-1.0f, -1.0f);
   window.draw();
-  testing::check_golden("window_question", window.picture());
+  check_panels("window_question", window.picture());
 }
 
 TEST_CASE("Golden window: the list of keys") {
-  if (!draws_the_same()) return;
   OffscreenWindow window(golden_scene(kBox), 1000.0f, 620.0f);
   window.press_key(GLFW_KEY_F1);
-  testing::check_golden("window_keys", window.picture());
+  check_panels("window_keys", window.picture());
 }
 
 }  // namespace clatter
