@@ -1,5 +1,7 @@
 #pragma once
 
+#include <doctest/doctest.h>
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -28,6 +30,17 @@ inline std::vector<nlohmann::json> widgets_in(const std::filesystem::path& log) 
   std::vector<nlohmann::json> widgets = events_in(log);
   std::erase_if(widgets, [](const auto& event) { return event.at("event") != "widget"; });
   return widgets;
+}
+
+/// The newest event of a name in a script log. Fails the test if there is none.
+inline nlohmann::json newest_event(const std::filesystem::path& log, const std::string& name) {
+  nlohmann::json newest;
+  for (const nlohmann::json& event : events_in(log)) {
+    if (event.at("event") == name) newest = event;
+  }
+  CAPTURE(name);
+  REQUIRE(!newest.is_null());
+  return newest;
 }
 
 /// Whether the newest status in a script log answers all commands, and the gas is halted.

@@ -37,11 +37,7 @@ OffscreenWindow::OffscreenWindow(const Scene& scene, float width, float height, 
   ImGui::GetIO().DisplaySize = ImVec2(width, height);
   gui_ = std::make_unique<Gui>(*desktop_, gl_->gl(), input_, worker_, log_);
   gui_->open(scene, 1, until, beside);
-  for (int look = 0; look < 2000 && !place_in(folder_ / "log", "viewport"); ++look) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    gui_->draw();
-  }
-  place("viewport");
+  REQUIRE(comes_to([&] { return place_in(folder_ / "log", "viewport").has_value(); }));
   draw();
 }
 
@@ -53,12 +49,7 @@ void OffscreenWindow::draw() {
 }
 
 void OffscreenWindow::settle() {
-  const auto settled = [&] { return !gui_->changes() && at_rest(folder_ / "log"); };
-  for (int look = 0; look < 2000 && !settled(); ++look) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    gui_->draw();
-  }
-  REQUIRE(settled());
+  REQUIRE(comes_to([&] { return !gui_->changes() && at_rest(folder_ / "log"); }));
   draw();
 }
 
@@ -121,6 +112,10 @@ Image OffscreenWindow::picture() {
   return canvas.read();
 }
 
+nlohmann::json OffscreenWindow::logged(const std::string& event) const {
+  return newest_event(folder_ / "log", event);
+}
+
 std::string OffscreenWindow::text(const std::string& part) const {
   std::string text;
   const ImDrawData& data = *ImGui::GetDrawData();
@@ -134,13 +129,16 @@ std::string OffscreenWindow::text(const std::string& part) const {
   return text;
 }
 
-bool OffscreenWindow::comes_to_say(const std::string& part, const std::string& words) {
-  for (int look = 0; look < 2000; ++look) {
-    if (testing::says(text(part), words)) return true;
+bool OffscreenWindow::comes_to(const std::function<bool()>& holds) {
+  for (int look = 0; look < 2000 && !holds(); ++look) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     gui_->draw();
   }
-  return false;
+  return holds();
+}
+
+bool OffscreenWindow::comes_to_say(const std::string& part, const std::string& words) {
+  return comes_to([&] { return testing::says(text(part), words); });
 }
 
 std::string OffscreenWindow::tooltip(const std::string& widget) {

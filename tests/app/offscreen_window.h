@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -45,9 +47,13 @@ class OffscreenWindow {
   Image picture();
   /// The rectangle of a widget as in the script log: left, top, width, height.
   std::array<float, 4> place(const std::string& widget) const;
+  /// The newest event of a name in the script log. Fails the test if there is none.
+  nlohmann::json logged(const std::string& event) const;
   /// The texts of the parts of the window whose names begin so, in drawing order. Line breaks are
   /// blanks.
   std::string text(const std::string& part) const;
+  /// Draws the window until the condition holds, for some seconds. Returns whether it holds.
+  bool comes_to(const std::function<bool()>& holds);
   /// Whether a part of the window gets these words within some seconds.
   bool comes_to_say(const std::string& part, const std::string& words);
   /// The tooltip of a widget; empty: none.

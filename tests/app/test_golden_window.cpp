@@ -11,6 +11,7 @@
 #include "engine/scene/scene_file.h"
 #include "tests/app/offscreen_window.h"
 #include "tests/support/golden_picture.h"
+#include "tests/support/messages.h"
 
 namespace clatter {
 
@@ -30,9 +31,10 @@ Scene golden_scene(const std::string& keys) {
   return parse_scene(keys, "golden");
 }
 
-// The pixels of a widget.
-Image part_of(const Image& image, const std::array<float, 4>& place) {
-  const auto [left, top, width, height] = place;
+// The pixels of a widget, and `around` it.
+Image part_of(const Image& image, const std::array<float, 4>& place, float around = 0.0f) {
+  const float left = place[0] - around, top = place[1] - around;
+  const float width = place[2] + 2.0f * around, height = place[3] + 2.0f * around;
   Image part{{static_cast<int>(width), static_cast<int>(height)}, {}};
   for (int y = 0; y < part.size.height; ++y) {
     const auto row = image.rgba.begin() +
@@ -103,6 +105,50 @@ set = { "particles.restitution" = 0.8 }
   window.hold(true);
   window.point_at("timeline", 0.5f, 0.6f);
   check_panels("window_loop", window.picture());
+}
+
+TEST_CASE("Golden window: the mark of a ramp is dragged on the timeline") {
+  OffscreenWindow window(golden_scene(kBox + R"(
+view.speed = 50.0
+[[change]]
+time = 2.0
+until = 3.5
+ramp = "linear"
+set = { "walls.left.temperature" = 3.0 }
+)"),
+                         900.0f, 600.0f, 9.0);
+  window.settle();
+  window.point_at("timeline.change.0", 0.5f, 0.5f);
+  window.hold(true);
+  window.point_at("timeline", 0.6f, 0.2f);
+  check_panels("window_dragged_mark", part_of(window.picture(), window.place("timeline"), 8.0f));
+}
+
+TEST_CASE("Golden window: the timeline of a run that stopped by itself") {
+  Scene scene = load_scene("collapse");
+  scene.contact_time.reset();
+  OffscreenWindow window(scene, 900.0f, 600.0f, 1000.0);
+  window.settle();
+  REQUIRE(testing::says(window.logged("message")["text"], "inelastic collapse"));
+  check_panels("window_stopped", part_of(window.picture(), window.place("timeline"), 8.0f));
+}
+
+TEST_CASE("Golden window: rings around a picked disk and a pair across a periodic border") {
+  OffscreenWindow window(golden_scene(R"(
+box.size = [4.0, 3.0]
+particles = { count = 5, restitution = 0.9 }
+)"),
+                         800.0f, 600.0f);
+  for (int collision = 0; collision < 3; ++collision) {
+    window.click("collision");
+    window.settle();
+  }
+  window.point_at("viewport", 0.53f, 0.42f);
+  window.hold(true);
+  window.hold(false);
+  REQUIRE(window.comes_to_say("particle", "next collision"));
+  window.settle();
+  check_panels("window_pair", window.picture());
 }
 
 TEST_CASE("Golden window: lecture mode with its settings") {

@@ -46,15 +46,7 @@ class SessionDriver {
   }
 
   // The newest event of a name in the script log.
-  json logged(const std::string& name) const {
-    json newest;
-    for (const json& event : events_in(folder_ / "log")) {
-      if (event["event"] == name) newest = event;
-    }
-    CAPTURE(name);
-    REQUIRE(!newest.is_null());
-    return newest;
-  }
+  json logged(const std::string& name) const { return newest_event(folder_ / "log", name); }
 
   // Number of commands before those of the test.
   static constexpr int kOpened = 1;

@@ -1,0 +1,251 @@
+// The picture of the gas in the window: its cameras, and the mouse on it.
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <doctest/doctest.h>
+#include <imgui.h>
+
+#include <cmath>
+
+#include "app/view/viewport.h"
+#include "engine/publish/scheduled_run.h"
+#include "engine/scene/scene_file.h"
+#include "render/context/context.h"
+#include "render/output/cells.h"
+#include "tests/app/offscreen_window.h"
+#include "tests/render/picture.h"
+#include "tests/support/messages.h"
+#include "tests/support/scenes.h"
+
+namespace clatter {
+
+using testing::gas;
+using testing::wall_in;
+
+namespace {
+
+Frame frame_of(const Scene& scene) {
+  Frame frame;
+  frame.run = 1;
+  frame.snapshot = ScheduledRun<2>(scene, 1).snapshot();
+  frame.scene = std::make_shared<const Scene>(scene);
+  return frame;
+}
+
+// The picture of a gas that shows its whole box, or what a camera sees.
+class Drawn {
+ public:
+  explicit Drawn(const Gl& gl) : gl_(&gl), renderer_(gl) {}
+
+  Image picture(const Frame& frame, Size size, const OverlayText& text) {
+    return picture(frame, size, text, renderer_.fit(frame.snapshot, size, frame.scene->view, text));
+  }
+  Image picture(const Frame& frame, Size size, const OverlayText& text, const Camera& camera) {
+    const Canvas canvas(*gl_, size);
+    canvas.bind();
+    renderer_.draw(frame.snapshot, camera, size, frame.scene->view, text);
+    return canvas.read();
+  }
+
+ private:
+  const Gl* gl_;
+  Renderer renderer_;
+};
+
+// The pixels of a cell of three.
+std::vector<std::uint8_t> cell_of(const Image& picture, int number) {
+  const auto [left, top, size] = picture_cell(picture.size, number, 3);
+  std::vector<std::uint8_t> pixels;
+  for (int y = top; y < top + size.height; ++y) {
+    const auto row = picture.rgba.begin() + 4 * (y * picture.size.width + left);
+    pixels.insert(pixels.end(), row, row + 4 * size.width);
+  }
+  return pixels;
+}
+
+// A box of 16 x 12 between four walls.
+Scene box_of_disks() {
+  Scene scene = gas(16.0, 12.0, 40, 0.9);
+  for (const int axis : {0, 1}) wall_in(scene, axis, Wall{.kind = WallKind::Static});
+  return scene;
+}
+
+// The places of the walls in the window: left, right, top, bottom.
+std::array<float, 4> walls_in(const OffscreenWindow& window) {
+  // A handle is outside of its wall.
+  const auto left = window.place("wall.left"), right = window.place("wall.right"),
+             top = window.place("wall.top"), bottom = window.place("wall.bottom");
+  return {left[0] + left[2], right[0], top[1] + top[3], bottom[1]};
+}
+
+void check_walls(const OffscreenWindow& window, const std::array<float, 4>& expected) {
+  const std::array<float, 4> walls = walls_in(window);
+  for (std::size_t wall = 0; wall < 4; ++wall) {
+    CAPTURE(wall);
+    CHECK(walls[wall] == doctest::Approx(expected[wall]).epsilon(1e-4));
+  }
+}
+
+void turn_wheel(OffscreenWindow& window, float steps) {
+  ImGui::GetIO().MouseWheel = steps;
+  window.draw();
+}
+
+// Places relative to a point of the window, after a zoom about it.
+std::array<float, 4> zoomed(const std::array<float, 4>& walls, ImVec2 about, float factor) {
+  const auto [left, right, top, bottom] = walls;
+  return {about.x + factor * (left - about.x), about.x + factor * (right - about.x),
+          about.y + factor * (top - about.y), about.y + factor * (bottom - about.y)};
+}
+
+}  // namespace
+
+TEST_CASE("Viewport: it draws a gas with its heading as a film does") {
+  const auto context = open_context(Backend::Auto);
+  Scene scene = box_of_disks();
+  scene.title = "Box";
+  scene.caption = "Four walls.";
+  // At the end of a caption that fades out in half a second, the speed sets its opacity.
+  scene.view.captions = {{.text = "Until soon", .to = 0.4}};
+  Frame frame = frame_of(scene);
+  frame.speed = 2.0;
+  const Size size{320, 240};
+  const OverlayText text{.title = scene.title,
+                         .caption = scene.caption,
+                         .letters = 1.2,
+                         .least = 14.0,
+                         .speed = 2.0};
+  Viewport viewport(context->gl());
+  viewport.draw(frame, scene.view, size, 1.2, 14.0, true, {});
+  CHECK(viewport.picture().rgba == Drawn(context->gl()).picture(frame, size, text).rgba);
+}
+
+TEST_CASE("Viewport: compared gases with equal boxes have the camera of the selected one") {
+  const auto context = open_context(Backend::Auto);
+  const GuiContext gui = make_gui_context();
+  const CurrentContext current(gui.get());
+  const Scene scene = box_of_disks();
+  Scene other = scene;
+  other.box = Vec2(10.0, 20.0);
+  const std::vector<std::string> titles(3, "Gas");
+  const Size size{600, 240};
+  Frame selected = frame_of(scene);
+  selected.gas = 1;
+  Frame former = frame_of(scene), latter = frame_of(other);
+  latter.gas = 2;
+  selected.beside = {former, latter};
+  Viewport viewport(context->gl());
+  const auto cells = [&](Viewport& drawn) {
+    drawn.redraw();
+    drawn.draw(selected, scene.view, size, 1.0, 0.0, false, titles);
+    return std::array{cell_of(drawn.picture(), 0), cell_of(drawn.picture(), 1),
+                      cell_of(drawn.picture(), 2)};
+  };
+  const auto whole = cells(viewport);
+  CHECK(whole[0] == whole[1]);
+
+  ImGui::GetIO().MouseWheel = 5.0f;
+  ImGui::GetIO().MousePos = ImVec2(300.0f, 100.0f);
+  View view;
+  viewport.use_mouse(selected, view, viewport.map(ImVec2(0, 0), 1.0f), true, true);
+  const auto zoomed = cells(viewport);
+  CHECK(zoomed[1] != whole[1]);
+  CHECK(zoomed[0] == zoomed[1]);
+  CHECK(zoomed[2] == whole[2]);
+
+  // A gas with a new box is shown whole.
+  other.box = Vec2(30.0, 20.0);
+  Frame resized = frame_of(other);
+  resized.gas = 2;
+  selected.beside[1] = resized;
+  Viewport fresh(context->gl());
+  const auto wider = cells(viewport);
+  CHECK(wider[0] == zoomed[0]);
+  CHECK(wider[1] == zoomed[1]);
+  CHECK(wider[2] == cells(fresh)[2]);
+}
+
+TEST_CASE("Viewport: the wheel zooms about the mouse, between limits") {
+  OffscreenWindow window(box_of_disks(), 1000.0f, 700.0f);
+  const std::array<float, 4> whole = walls_in(window);
+  window.point_at("viewport", 0.4f, 0.7f);
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  turn_wheel(window, 2.0f);
+  check_walls(window, zoomed(whole, mouse, std::pow(0.85f, -2.0f)));
+  // The widest view has ten times the longest side of the box, the narrowest two diameters.
+  const float width = window.place("viewport")[2];
+  turn_wheel(window, -100.0f);
+  CHECK(walls_in(window)[1] - walls_in(window)[0] == doctest::Approx(0.1 * width).epsilon(1e-3));
+  turn_wheel(window, 100.0f);
+  CHECK(walls_in(window)[1] - walls_in(window)[0] == doctest::Approx(8.0 * width).epsilon(1e-3));
+}
+
+TEST_CASE("Viewport: the widest view of a small box has 20 diameters") {
+  Scene scene = box_of_disks();
+  scene.box = Vec2(1.5, 1.2);
+  scene.particles.count = 1;
+  OffscreenWindow window(scene, 1000.0f, 700.0f);
+  window.point_at("viewport", 0.5f, 0.5f);
+  turn_wheel(window, -100.0f);
+  const float width = window.place("viewport")[2];
+  CHECK(walls_in(window)[1] - walls_in(window)[0] ==
+        doctest::Approx(1.5 / 20.0 * width).epsilon(1e-3));
+}
+
+TEST_CASE("Viewport: the right button moves the picture with the mouse") {
+  OffscreenWindow window(box_of_disks(), 1000.0f, 700.0f);
+  const auto [left, right, top, bottom] = walls_in(window);
+  window.point_at("viewport", 0.5f, 0.5f);
+  ImGui::GetIO().MouseDown[1] = true;
+  window.draw();
+  ImGui::GetIO().MousePos.x += 40.0f;
+  ImGui::GetIO().MousePos.y -= 25.0f;
+  window.draw();
+  ImGui::GetIO().MouseDown[1] = false;
+  window.draw();
+  check_walls(window, {left + 40.0f, right + 40.0f, top - 25.0f, bottom - 25.0f});
+}
+
+TEST_CASE("Viewport: a double click follows a disk, until the whole box is shown again") {
+  const Scene scene = box_of_disks();
+  OffscreenWindow window(scene, 1000.0f, 700.0f);
+  const std::array<float, 4> whole = walls_in(window);
+  const auto [left, right, top, bottom] = whole;
+  const VecX disk = ScheduledRun<2>(scene, 1).snapshot().positions.col(7);
+  const auto x = static_cast<float>(disk.x()) / 16.0f, y = static_cast<float>(disk.y()) / 12.0f;
+  const ImVec2 place(left + x * (right - left), bottom - y * (bottom - top));
+  ImGui::GetIO().MousePos = place;
+  for (int click = 0; click < 2; ++click) {
+    ImGui::GetIO().MouseDown[0] = true;
+    window.draw();
+    ImGui::GetIO().MouseDown[0] = false;
+    window.draw();
+  }
+  window.settle();
+  REQUIRE(testing::says(window.text("particle"), "Disk 7"));
+  const auto area = window.place("viewport");
+  const ImVec2 moved(area[0] + 0.5f * area[2] - place.x, area[1] + 0.5f * area[3] - place.y);
+  check_walls(window, {left + moved.x, right + moved.x, top + moved.y, bottom + moved.y});
+  window.press('f');
+  window.press_key(GLFW_KEY_PERIOD);
+  window.settle();
+  check_walls(window, whole);
+}
+
+TEST_CASE("Viewport: a restart shows the whole box again, and a zoom after it stays") {
+  OffscreenWindow window(box_of_disks(), 1000.0f, 700.0f);
+  const std::array<float, 4> whole = walls_in(window);
+  window.point_at("viewport", 0.5f, 0.5f);
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  for (int run = 0; run < 2; ++run) {
+    turn_wheel(window, 3.0f);
+    window.press('r');
+    window.settle();
+    check_walls(window, whole);
+  }
+  turn_wheel(window, 1.0f);
+  window.settle();
+  check_walls(window, zoomed(whole, mouse, 1.0f / 0.85f));
+}
+
+}  // namespace clatter
