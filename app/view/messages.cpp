@@ -10,11 +10,10 @@
 
 namespace clatter {
 
-// A small window that ignores the mouse. `wrap` is its largest width; 0: unlimited.
-static void begin_note(const char* name, ImVec2 place, ImVec2 pivot, float wrap = 0.0f) {
+// A small window that ignores the mouse.
+static void begin_note(const char* name, ImVec2 place, ImVec2 pivot) {
   const float unit = ImGui::GetFontSize();
   ImGui::SetNextWindowPos(place, 0, pivot);
-  if (wrap > 0.0f) ImGui::SetNextWindowSizeConstraints(ImVec2(0, 0), ImVec2(wrap, FLT_MAX));
   ImGui::SetNextWindowBgAlpha(0.96f);
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.4f * unit);
@@ -75,11 +74,10 @@ void MessageNote::draw(const Session& session, const Area& area) {
   }
   if (!shown()) return;
   const float unit = ImGui::GetFontSize();
-  const float wrap = 0.7f * (area.high.x - area.low.x);
   ImGui::PushStyleVar(ImGuiStyleVar_Alpha, std::min(1.0f, left_ / kFade));
   begin_note("told", ImVec2(0.5f * (area.low.x + area.high.x), area.high.y - 3.6f * unit),
-             ImVec2(0.5f, 1.0f), wrap);
-  ImGui::PushTextWrapPos(wrap - 2.0f * unit);
+             ImVec2(0.5f, 1.0f));
+  ImGui::PushTextWrapPos(0.7f * (area.high.x - area.low.x) - 2.0f * unit);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
   const ImVec2 low = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();

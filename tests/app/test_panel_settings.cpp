@@ -139,6 +139,40 @@ TEST_CASE("Panels: ranges are automatic, locked or given from the one number to 
   }
 }
 
+TEST_CASE("Panels: a range that becomes given has round ends around the values") {
+  Scene scene = uneven_disks();
+  scene.view.range = scene.view.field_range = {};
+  for (const bool signs : {false, true}) {
+    CAPTURE(signs);
+    scene.view.field = signs ? Field(Quantity::Velocity, 0) : Field(Quantity::Density);
+    scene.view.colour_by = signs ? ColourBy::VelocityY : ColourBy::Speed;
+    Session* session = nullptr;
+    PanelDriver driver(scene, [&](Session& of, Controls& controls) {
+      session = &of;
+      all_panels(of, controls);
+    });
+    session->play_until(1.0);
+    driver.wait_for([](const Frame& frame) { return frame.snapshot.time == 1.0; });
+    const auto& map = session->frame().snapshot.field;
+    REQUIRE(map);
+    choose(driver, "view.field_range", "given");
+    choose(driver, "view.range", "given");
+    const View& view = session->view();
+    double most = 0.0;
+    for (const double value : map->values) {
+      if (std::isfinite(value)) most = std::max(most, std::fabs(value));
+    }
+    CHECK(view.field_range.ends[0] == (signs ? -view.field_range.ends[1] : 0.0));
+    CHECK(view.field_range.ends[1] >= most);
+    CHECK(view.field_range.ends[1] <= 2.5 * most);
+    const double speed =
+        std::sqrt(session->frame().snapshot.velocities.colwise().squaredNorm().mean());
+    CHECK(view.range.ends[0] == (signs ? -view.range.ends[1] : 0.0));
+    CHECK(view.range.ends[1] >= 1.9 * speed);
+    CHECK(view.range.ends[1] <= 2.6 * 2.0 * speed);
+  }
+}
+
 TEST_CASE("Panels: every box to tick switches its own key") {
   const auto changed_by = [](const char* key) {
     PanelDriver driver(uneven_disks(), all_panels);

@@ -22,6 +22,26 @@ namespace clatter {
 
 using testing::says;
 
+namespace {
+
+// The colour of the last opaque corner of the current window in a rectangle.
+Colour colour_in(const std::array<float, 4>& place) {
+  const auto [x, y, width, height] = place;
+  Colour colour;
+  for (const ImDrawVert& corner : ImGui::GetWindowDrawList()->VtxBuffer) {
+    const auto channel = [&](int shift) {
+      return static_cast<std::uint8_t>(corner.col >> shift & 255u);
+    };
+    if (channel(IM_COL32_A_SHIFT) == 255 && corner.pos.x > x && corner.pos.x < x + width &&
+        corner.pos.y > y && corner.pos.y < y + height) {
+      colour = {channel(IM_COL32_R_SHIFT), channel(IM_COL32_G_SHIFT), channel(IM_COL32_B_SHIFT)};
+    }
+  }
+  return colour;
+}
+
+}  // namespace
+
 TEST_CASE("Panels: the list of keys has each key beside its action") {
   PanelDriver driver(uneven_disks(), [](Session&, Controls&) { help_window(2, 1280.0f, 1800.0f); });
   check_lines(driver.lines(),
@@ -240,26 +260,31 @@ TEST_CASE("Panels: the label of a particle is beside it, on the side of the midd
   }
 }
 
+TEST_CASE("Panels: the label of a particle outside of the picture is at its border") {
+  Frame frame;
+  frame.snapshot.positions = Vec2(1.0, 2.0);
+  frame.snapshot.velocities = Vec2(3.0, 4.0);
+  ImVec2 place;
+  PanelDriver driver(Scene{}, [&](Session&, Controls&) {
+    particle_label(frame, 0, false, {20.0f, 10.0f}, {{200.0f, 100.0f}, {900.0f, 800.0f}});
+    if (const ImGuiWindow* label = ImGui::FindWindowByName("particle")) place = label->Pos;
+  });
+  driver.lines();
+  CHECK(place.x == 200.0f);
+  CHECK(place.y == 100.0f);
+}
+
 TEST_CASE("Panels: the light of health is green, and red after the run has stopped by itself") {
   Session* session = nullptr;
   std::array<float, 4> light = {};
-  Colour colour;  // of the last opaque corner in the light
+  Colour colour;
   PanelVisibility shown;
   Scene scene = load_scene("collapse");
   scene.contact_time.reset();
   PanelDriver driver(scene, [&](Session& of, Controls& controls) {
     session = &of;
     top_bar(of, controls, shown, true);
-    const auto [x, y, width, height] = light;
-    for (const ImDrawVert& corner : ImGui::GetWindowDrawList()->VtxBuffer) {
-      const auto channel = [&](int shift) {
-        return static_cast<std::uint8_t>(corner.col >> shift & 255u);
-      };
-      if (channel(IM_COL32_A_SHIFT) == 255 && corner.pos.x > x && corner.pos.x < x + width &&
-          corner.pos.y > y && corner.pos.y < y + height) {
-        colour = {channel(IM_COL32_R_SHIFT), channel(IM_COL32_G_SHIFT), channel(IM_COL32_B_SHIFT)};
-      }
-    }
+    colour = colour_in(light);
   });
   const auto reasons = [&] {
     light = driver.place("health");
@@ -280,6 +305,25 @@ TEST_CASE("Panels: the light of health is green, and red after the run has stopp
   CHECK(says(reasons(), fmt::format("its ledger {:.1e}", stopped.ledger_residual)));
   session->restart();
   driver.wait_for([](const Frame& frame) { return frame.run == 2 && frame.stop.empty(); });
+}
+
+TEST_CASE("Panels: the light of health is yellow while the engine is too slow for the speed") {
+  Session* session = nullptr;
+  std::array<float, 4> light = {};
+  Colour colour;
+  PanelVisibility shown;
+  PanelDriver driver(load_scene("vibrated"), [&](Session& of, Controls& controls) {
+    session = &of;
+    top_bar(of, controls, shown, true);
+    colour = colour_in(light);
+  });
+  light = driver.place("health");
+  session->set_speed(1e6);
+  session->play(true);
+  driver.wait_for([](const Frame& frame) { return frame.plays && frame.held < 0.5; });
+  driver.lines();
+  CHECK(colour.red > colour.green);
+  CHECK(colour.green > 2 * colour.blue);
 }
 
 TEST_CASE("Panels: the strip of a lesson has its goal and its suggestion beside their names") {

@@ -146,6 +146,27 @@ TEST_CASE("Session: undo of an act at the head is no part of an earlier fork") {
   }
 }
 
+TEST_CASE("Session: redo of an act after an earlier fork exchanges the futures") {
+  SessionDriver driver;
+  Session& session = driver.session;
+  driver.go_to(2.0);
+  session.jump(1.5);
+  driver.answer();
+  act(driver, {heated(1.5)});
+  driver.go_to(2.5);
+  act(driver, {heated(1.25)});
+  driver.go_to(3.0);
+  session.undo();
+  driver.answer();
+  CHECK(scales(session) == std::vector{1.5});
+  session.redo();
+  driver.answer();
+  CHECK(scales(session) == std::vector{1.5, 1.25});
+  CHECK(session.frame().head == 3.0);
+  CHECK(driver.logged("exchange_futures")["command"] >
+        driver.logged("replace_changes")["command"]);
+}
+
 TEST_CASE("Session: undo of a second fork exchanges its own futures") {
   SessionDriver driver;
   Session& session = driver.session;

@@ -232,6 +232,17 @@ TEST_CASE("Viewport: a double click follows a disk, until the whole box is shown
   check_walls(window, whole);
 }
 
+TEST_CASE("Viewport: the cursor over a wall has the direction in which it moves") {
+  OffscreenWindow window(box_of_disks(), 1000.0f, 700.0f);
+  for (const char* wall : {"left", "right", "bottom", "top"}) {
+    CAPTURE(wall);
+    window.point_at(std::string("wall.") + wall, 0.5f, 0.5f);
+    const bool sideways = wall == std::string("left") || wall == std::string("right");
+    CHECK(ImGui::GetMouseCursor() ==
+          (sideways ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS));
+  }
+}
+
 TEST_CASE("Viewport: a restart shows the whole box again, and a zoom after it stays") {
   OffscreenWindow window(box_of_disks(), 1000.0f, 700.0f);
   const std::array<float, 4> whole = walls_in(window);
