@@ -22,6 +22,26 @@ TEST_CASE("Window: it is no larger than the screen") {
   CHECK(place[0].get<double>() + place[2].get<double>() <= 1200.0);
 }
 
+TEST_CASE("Window: F11 fills the screen, and restores the window at its place") {
+  const GuiDriver driver("", "1000x640", "1280x800");
+  driver.tool("search --name clatter windowmove --sync 40 30");
+  const auto window = [&] {
+    return driver.run("xdotool search --name clatter getwindowgeometry | tail -2").out;
+  };
+  const std::string before = window();
+  REQUIRE(says(before, "Position: 40,30"));
+  REQUIRE(says(before, "Geometry: 1000x640"));
+  std::size_t told = driver.told();
+  driver.key("F11");
+  driver.place("viewport", told);
+  CHECK(says(window(), "Position: 0,0"));
+  CHECK(says(window(), "Geometry: 1280x800"));
+  told = driver.told();
+  driver.key("F11");
+  driver.place("viewport", told);
+  CHECK(window() == before);
+}
+
 TEST_CASE("Window: it halts at the time of --until") {
   const GuiDriver driver("--until 1.5");
   const json there = driver.wait_for("status", 0, halted);

@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 
@@ -20,11 +22,11 @@ namespace {
 class WaveDevice {
  public:
   // Without a file the device cannot be opened.
-  explicit WaveDevice(const Shell& shell, const std::string& file = "") {
+  explicit WaveDevice(const Shell& shell, const std::string& file = "",
+                      const std::string& options = "") {
     shell.write("openal.conf",
-                "[general]\nchannels = stereo\nsample-type = int16\nfrequency = 48000\n"
-                "dither = false\n[wave]\nfile = " +
-                    file + "\n");
+                "[general]\nchannels = stereo\nsample-type = int16\ndither = false\n" + options +
+                    "\n[wave]\nfile = " + file + "\n");
     ::setenv("ALSOFT_DRIVERS", "wave", 1);
     ::setenv("ALSOFT_CONF", shell.path("openal.conf").c_str(), 1);
   }
@@ -36,17 +38,34 @@ class WaveDevice {
   }
 };
 
-// The samples in a WAV file with two channels of 16 bits at which a silence of 10 ms ends.
-std::vector<long> wave_onsets(const std::string& bytes) {
+using StereoSample = std::array<std::int16_t, 2>;
+
+// The samples in a WAV file with two channels of 16 bits.
+std::vector<StereoSample> wave_samples(const std::string& bytes) {
   const std::size_t data = bytes.find("data");
   REQUIRE(data != std::string::npos);
-  std::vector<std::uint32_t> samples((bytes.size() - data - 8) / 4);
-  std::memcpy(samples.data(), bytes.data() + data + 8, 4 * samples.size());
+  std::vector<StereoSample> samples((bytes.size() - data - 8) / sizeof(StereoSample));
+  std::memcpy(samples.data(), bytes.data() + data + 8, samples.size() * sizeof(StereoSample));
+  return samples;
+}
+
+// Samples per second in the header of a WAV file.
+std::uint32_t wave_rate(const std::string& bytes) {
+  constexpr std::size_t kPlace = 24;
+  std::uint32_t rate = 0;
+  REQUIRE(bytes.size() > kPlace + sizeof rate);
+  std::memcpy(&rate, bytes.data() + kPlace, sizeof rate);
+  return rate;
+}
+
+// The numbers of the samples at which a silence of 10 ms ends.
+std::vector<long> onsets_in(const std::vector<StereoSample>& samples) {
   std::vector<long> onsets;
   long silent = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (samples[i] != 0 && silent >= 480) onsets.push_back(static_cast<long>(i));
-    silent = samples[i] == 0 ? silent + 1 : 0;
+    const bool silence = samples[i] == StereoSample{};
+    if (!silence && silent >= 480) onsets.push_back(static_cast<long>(i));
+    silent = silence ? silent + 1 : 0;
   }
   return onsets;
 }
@@ -73,7 +92,9 @@ TEST_CASE("Window sound: the clicks are those of the run, at its speed") {
     driver.key("ctrl+q");
     CHECK(driver.exit_code() == 0);
   }
-  const std::vector<long> onsets = wave_onsets(files.read("sound.wav"));
+  const std::string wave = files.read("sound.wav");
+  CHECK(wave_rate(wave) == 48000);
+  const std::vector<long> onsets = onsets_in(wave_samples(wave));
   const json times = table_in(files.read("e.csv")).columns["time"];
   const auto sample_of = [&](std::size_t event) {
     return std::lround(times[event].get<double>() / kSpeed * 48000.0);
@@ -99,6 +120,41 @@ TEST_CASE("Window sound: the clicks are those of the run, at its speed") {
   CHECK(heard >= (pairs + 1) / 2);
 }
 
+TEST_CASE("Window sound: a collision is heard on the side of its place") {
+  const Shell files;
+  files.write("one.toml",
+              "box.size = [20, 15]\nparticles = { count = 1, restitution = 1.0 }\n"
+              "walls.left = { kind = \"driven\", drive_speed = 2.0 }\n"
+              "walls.right = { kind = \"static\" }\nview.speed = 10.0\n");
+  // The model of a head would change the sides.
+  const WaveDevice device(files, files.path("sound.wav"), "hrtf = true");
+  {
+    const GuiDriver driver("--sound --until 60 " + files.path("one.toml").string(), "640x480");
+    driver.wait_for("status", 0, [](const json& status) { return status["time"] == 60.0; });
+    driver.key("ctrl+q");
+    CHECK(driver.exit_code() == 0);
+  }
+  const std::vector<StereoSample> samples = wave_samples(files.read("sound.wav"));
+  // The disk hits the walls in turn, and touches them half a diameter away.
+  constexpr double kPlace = 0.5 / 20.0;
+  std::array<int, 2> sides = {};
+  for (const long onset : onsets_in(samples)) {
+    std::array<double, 2> loudest = {};
+    for (long i = onset; i < onset + 200 && i < static_cast<long>(samples.size()); ++i) {
+      for (const int side : {0, 1}) {
+        loudest[side] = std::max(loudest[side], std::fabs(1.0 * samples[i][side]));
+      }
+    }
+    const bool right = loudest[0] < loudest[1];
+    const double left_power = loudest[0] * loudest[0], right_power = loudest[1] * loudest[1];
+    const double place = right_power / (left_power + right_power);
+    CHECK((right ? 1.0 - place : place) == doctest::Approx(kPlace).epsilon(0.01));
+    ++sides[right];
+  }
+  CHECK(sides[0] >= 2);
+  CHECK(std::abs(sides[0] - sides[1]) <= 1);
+}
+
 TEST_CASE("Window sound: it is off at first, and a key switches it") {
   const Shell files;
   const WaveDevice device(files, files.path("sound.wav"));
@@ -113,7 +169,7 @@ TEST_CASE("Window sound: it is off at first, and a key switches it") {
   driver.wait_for("status", told, [&](const json& now) { return now["time"] > then + 2.0; });
   driver.click("sound");
   CHECK(driver.wait_for("sound", told)["on"] == false);
-  CHECK_FALSE(wave_onsets(files.read("sound.wav")).empty());
+  CHECK_FALSE(onsets_in(wave_samples(files.read("sound.wav"))).empty());
 }
 
 TEST_CASE("Window sound: without a device a message says so, and it stays off") {
