@@ -3,11 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <sstream>
 
 #include "render/chart_axis.h"
-#include "render/layers/fonts.h"
+#include "render/layers/chart_marker.h"
+#include "render/layers/text_widths.h"
 
 namespace clatter {
 
@@ -15,15 +14,6 @@ namespace {
 
 using Box = Eigen::AlignedBox2d;
 
-// Okabe and Ito (2008), with the colours that are palest on white last.
-constexpr std::array<Colour, 8> kSeriesColours = {{{0x00, 0x72, 0xb2},    // blue
-                                                   {0xd5, 0x5e, 0x00},    // vermilion
-                                                   {0x00, 0x9e, 0x73},    // bluish green
-                                                   {0xe6, 0x9f, 0x00},    // orange
-                                                   {0xcc, 0x79, 0xa7},    // reddish purple
-                                                   {0x56, 0xb4, 0xe9},    // sky blue
-                                                   {0x00, 0x00, 0x00},    // black
-                                                   {0xf0, 0xe4, 0x42}}};  // yellow
 constexpr Colour kTheory{0x50, 0x50, 0x50};  // lines that belong to no series
 
 // Lengths in em of the text.
@@ -39,63 +29,6 @@ constexpr double kLineWidth = 0.09;
 constexpr double kLineHeight = 1.3;
 constexpr double kAscent = 0.93;
 constexpr double kHalfCapital = 0.365;
-
-Colour fill_of(std::size_t series) {
-  const bool hollow = series / kSeriesColours.size() % 2 == 1;
-  return hollow ? kChartPaper : kSeriesColours[series % kSeriesColours.size()];
-}
-
-// Darker than the markers, because thin lines in pale colours are hard to see.
-Colour stroke_of(std::size_t series) {
-  return mix(kSeriesColours[series % kSeriesColours.size()], kChartInk, 0.2);
-}
-
-// The corners of a marker whose area is about that of a circle of this radius; none: a circle.
-std::vector<Vec2> marker_corners(std::size_t series, Vec2 centre, double radius) {
-  std::vector<Vec2> corners;
-  const auto add = [&](double degrees, double size) {
-    const double angle = degrees * std::numbers::pi / 180.0;
-    corners.emplace_back(centre + size * radius * Vec2(std::sin(angle), -std::cos(angle)));
-  };
-  const auto regular = [&](int count, double first, double size) {
-    for (int k = 0; k < count; ++k) add(first + 360.0 * k / count, size);
-  };
-  // Arms of a plus sign, turned by `first`.
-  const auto cross = [&](double first) {
-    for (int arm = 0; arm < 4; ++arm) {
-      for (const double side : {-20.0, 20.0}) add(first + 90.0 * arm + side, 1.4);
-      add(first + 90.0 * arm + 45.0, 1.4 * std::numbers::sqrt2 * std::sin(std::numbers::pi / 9.0));
-    }
-  };
-  switch ((series + series / (2 * kSeriesColours.size())) % 8) {
-    case 0:
-      break;
-    case 1:
-      regular(4, 45.0, 1.28);
-      break;
-    case 2:
-      regular(3, 0.0, 1.45);
-      break;
-    case 3:
-      regular(4, 0.0, 1.4);
-      break;
-    case 4:
-      regular(3, 60.0, 1.45);
-      break;
-    case 5:
-      cross(0.0);
-      break;
-    case 6:
-      for (int point = 0; point < 5; ++point) {
-        add(72.0 * point, 1.5);
-        add(72.0 * point + 36.0, 0.66);
-      }
-      break;
-    default:
-      cross(45.0);
-  }
-  return corners;
-}
 
 // The part of a straight line in a box (Liang and Barsky 1984).
 std::optional<std::array<Vec2, 2>> part_in(const Box& box, const Vec2& a, const Vec2& b) {
@@ -114,37 +47,6 @@ std::optional<std::array<Vec2, 2>> part_in(const Box& box, const Vec2& a, const 
   return std::array<Vec2, 2>{first == 0.0 ? a : Vec2(a + first * along),
                              last == 1.0 ? b : Vec2(a + last * along)};
 }
-
-// Measures texts. All sizes of the typeface have the same proportions.
-class TextWidths {
- public:
-  explicit TextWidths(const Chart& chart) {
-    add_letters(atlas_, chart_letters(chart), std::array{kMeasured});
-  }
-
-  double operator()(const std::string& text, double size) const {
-    return text_extent(*atlas_.Fonts[0], text).x * size / kMeasured;
-  }
-
-  // The lines of a text broken at a width. A longer word has a line of its own.
-  std::vector<std::string> lines(const std::string& text, double size, double width) const {
-    std::vector<std::string> lines;
-    std::istringstream words(text);
-    for (std::string word; words >> word;) {
-      const std::string longer = lines.empty() ? word : lines.back() + ' ' + word;
-      if (!lines.empty() && (*this)(longer, size) <= width) {
-        lines.back() = longer;
-      } else {
-        lines.push_back(word);
-      }
-    }
-    return lines;
-  }
-
- private:
-  static constexpr double kMeasured = 32.0;
-  ImFontAtlas atlas_;
-};
 
 // An entry of the legend: a marker or a line, and its name.
 struct LegendEntry {
@@ -166,7 +68,7 @@ class ChartDrawing {
         pen_(pen),
         page_(Vec2(0.0, 0.0), Vec2(size.width, size.height)),
         sizes_(chart_letter_sizes(size)),
-        widths_(chart) {
+        widths_(chart_letters(chart)) {
     find_scales();
     arrange();
   }
@@ -329,7 +231,7 @@ class ChartDrawing {
 
   ChartStroke stroke_of_line(const ChartLine& line) const {
     const bool own = !line.series || *line.series >= chart_.series.size();
-    return {own ? kTheory : stroke_of(*line.series), kLineWidth * em_, line.style};
+    return {own ? kTheory : series_ink(*line.series), kLineWidth * em_, line.style};
   }
 
   // The entries in columns of at most this height.
@@ -493,7 +395,7 @@ class ChartDrawing {
   }
 
   void draw_bars(std::size_t series) const {
-    const ChartStroke stroke{stroke_of(series), kBarWidth * em_};
+    const ChartStroke stroke{series_ink(series), kBarWidth * em_};
     for (const ChartPoint& point : chart_.series[series].points) {
       if (!shows(point) || bar_of(point) == 0.0) continue;
       const std::array<Vec2, 2> ends = bar(point);
@@ -509,12 +411,12 @@ class ChartDrawing {
 
   void draw_marker(std::size_t series, const Vec2& at) const {
     const double radius = kMarker * em_;
-    const ChartStroke edge{stroke_of(series), kBarWidth * em_};
+    const ChartStroke edge{series_ink(series), kBarWidth * em_};
     const std::vector<Vec2> corners = marker_corners(series, at, radius);
     if (corners.empty()) {
-      pen_.circle(at, radius, fill_of(series), edge);
+      pen_.circle(at, radius, marker_fill(series), edge);
     } else {
-      pen_.polygon(corners, fill_of(series), edge);
+      pen_.polygon(corners, marker_fill(series), edge);
     }
   }
 

@@ -163,8 +163,7 @@ TEST_CASE("Session: redo of an act after an earlier fork exchanges the futures")
   driver.answer();
   CHECK(scales(session) == std::vector{1.5, 1.25});
   CHECK(session.frame().head == 3.0);
-  CHECK(driver.logged("exchange_futures")["command"] >
-        driver.logged("replace_changes")["command"]);
+  CHECK(driver.logged("exchange_futures")["command"] > driver.logged("replace_changes")["command"]);
 }
 
 TEST_CASE("Session: undo of a second fork exchanges its own futures") {

@@ -110,11 +110,8 @@ TEST_CASE("Viewport: it draws a gas with its heading as a film does") {
   Frame frame = frame_of(scene);
   frame.speed = 2.0;
   const Size size{320, 240};
-  const OverlayText text{.title = scene.title,
-                         .caption = scene.caption,
-                         .letters = 1.2,
-                         .least = 14.0,
-                         .speed = 2.0};
+  const OverlayText text{
+      .title = scene.title, .caption = scene.caption, .letters = 1.2, .least = 14.0, .speed = 2.0};
   Viewport viewport(context->gl());
   viewport.draw(frame, scene.view, size, 1.2, 14.0, true, {});
   CHECK(viewport.picture().rgba == Drawn(context->gl()).picture(frame, size, text).rgba);
