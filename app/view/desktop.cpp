@@ -7,22 +7,24 @@
 
 namespace clatter {
 
-// Lower-case letter of a key in the current keyboard layout; 0: no letter.
-static char letter_of(int key) {
-  if (key < GLFW_KEY_A || key > GLFW_KEY_Z) return 0;
+// A pressed key in the current keyboard layout. GLFW names a key by its place on a US keyboard.
+static KeyPress press_of(int key, int held) {
+  KeyPress press{key, 0, (held & GLFW_MOD_SHIFT) != 0, (held & GLFW_MOD_CONTROL) != 0};
   const char* name = glfwGetKeyName(key, 0);
-  const int letter = name && !name[1] ? name[0] : key;
-  return static_cast<char>(std::tolower(letter));
+  const int us = key >= GLFW_KEY_A && key <= GLFW_KEY_Z ? key : 0;
+  const int sign = name && !name[1] ? std::toupper(name[0]) : us;
+  if (sign >= 'A' && sign <= 'Z') press.letter = static_cast<char>(std::tolower(sign));
+  if (press.letter || sign == ',' || sign == '.') press.key = sign;
+  return press;
 }
 
 Desktop::Desktop(GLFWwindow* window, WindowInput& input) : window_(window) {
   glfwSetWindowUserPointer(window, &input);
   glfwSetKeyCallback(window, [](GLFWwindow* of, int key, int, int action, int held) {
     if (action == GLFW_RELEASE || key == GLFW_KEY_UNKNOWN) return;
-    if (action == GLFW_REPEAT && !repeats(key)) return;
-    static_cast<WindowInput*>(glfwGetWindowUserPointer(of))
-        ->press(
-            {key, letter_of(key), (held & GLFW_MOD_SHIFT) != 0, (held & GLFW_MOD_CONTROL) != 0});
+    const KeyPress press = press_of(key, held);
+    if (action == GLFW_REPEAT && !repeats(press.key)) return;
+    static_cast<WindowInput*>(glfwGetWindowUserPointer(of))->press(press);
   });
   glfwSetCursorPosCallback(window, [](GLFWwindow* of, double x, double y) {
     static_cast<WindowInput*>(glfwGetWindowUserPointer(of))->move_mouse(x, y);

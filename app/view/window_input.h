@@ -9,7 +9,7 @@ namespace clatter {
 
 /// A key press with its modifiers.
 struct KeyPress {
-  int key = 0;      ///< GLFW key code
+  int key = 0;      ///< GLFW key code; letters, comma and period are those of the layout
   char letter = 0;  ///< lower-case letter of the key in the current keyboard layout; 0: no letter
   bool shift = false;
   bool ctrl = false;

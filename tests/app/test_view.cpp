@@ -42,6 +42,31 @@ TEST_CASE("Window: F11 fills the screen, and restores the window at its place") 
   CHECK(window() == before);
 }
 
+TEST_CASE("Window: letters, comma and period are those of the keyboard layout") {
+  // On this layout W, V and Z have the places of the comma, the period and the slash.
+  const GuiDriver driver("--until 1", "1280x800");
+  REQUIRE(driver.run("setxkbmap dvorak").code == 0);
+  driver.wait_for("status", 0, halted);
+  driver.drag("particles.restitution", 0.88, 0.5);
+  driver.wait_for("set");
+  std::size_t told = driver.told();
+  driver.key("ctrl+z");
+  driver.wait_for("undo", told);
+  const auto time_after = [&](const std::string& key) {
+    told = driver.told();
+    driver.key(key);
+    return driver.wait_for("status", told, halted)["time"].get<double>();
+  };
+  CHECK(time_after("period") == doctest::Approx(1.0 + 2.0 / 60.0));
+  CHECK(time_after("comma") == doctest::Approx(1.0));
+  told = driver.told();
+  driver.key("v");
+  driver.key("w");
+  driver.key("l");
+  driver.place("viewport", told);
+  for (const char* step : {"step_frame", "jump"}) CHECK(driver.events(step).size() == 1);
+}
+
 TEST_CASE("Window: it halts at the time of --until") {
   const GuiDriver driver("--until 1.5");
   const json there = driver.wait_for("status", 0, halted);
