@@ -236,6 +236,8 @@ const special = {
 };
 
 function code_of(event) {
+  // Letters, comma and period are those of the keyboard layout.
+  if (/^[a-z,.]$/i.test(event.key)) return event.key.toUpperCase().charCodeAt(0);
   if (/^Key[A-Z]$/.test(event.code)) return event.code.charCodeAt(3);
   if (/^Digit[0-9]$/.test(event.code)) return event.code.charCodeAt(5);
   if (event.code === 'NumpadEnter') return special.Enter;
