@@ -8,6 +8,7 @@
 
 #include "app/bench/accuracy_output.h"
 #include "app/bench/pictures.h"
+#include "app/bench/plot_file.h"
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
 #include "engine/error.h"
@@ -147,7 +148,7 @@ int bench_accuracy(const AccuracyBench& bench) {
   }
   if (!bench.csv.empty()) write_file(bench.csv, accuracy_csv(tables, pictures));
   if (!bench.json.empty()) write_file(bench.json, accuracy_json(bench, tables, pictures));
-  if (!bench.plot.empty()) plot_accuracy(bench, tables);
+  if (!bench.plot.empty()) write_plot(bench.plot, accuracy_plot(bench, tables));
   if (!bench.markdown.empty()) {
     write_file(bench.markdown, with_accuracy_tables(bench, tables, pictures));
   }

@@ -9,8 +9,6 @@
 
 #include "app/system/page_parts.h"
 #include "engine/system/read_file.h"
-#include "render/context/context.h"
-#include "render/gl/canvas.h"
 
 namespace clatter {
 
@@ -242,12 +240,6 @@ Plot accuracy_plot(const AccuracyBench& bench, const std::vector<AccuracyTable>&
     plot.panels.push_back(panel);
   }
   return plot;
-}
-
-void plot_accuracy(const AccuracyBench& bench, const std::vector<AccuracyTable>& tables) {
-  const auto context = open_context(Backend::Auto);
-  write_png(bench.plot,
-            plot_image(context->gl(), accuracy_plot(bench, tables), {1600, 1000}, kLightTheme));
 }
 
 }  // namespace clatter

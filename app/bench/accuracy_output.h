@@ -33,7 +33,5 @@ std::string with_accuracy_tables(const AccuracyBench& bench,
 
 /// Cost against error, a panel for each sweep of the gas.
 Plot accuracy_plot(const AccuracyBench& bench, const std::vector<AccuracyTable>& tables);
-/// Writes the drawn plot to the bench's PNG file.
-void plot_accuracy(const AccuracyBench& bench, const std::vector<AccuracyTable>& tables);
 
 }  // namespace clatter

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "app/bench/plot_file.h"
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
 #include "app/system/process_usage.h"
@@ -16,7 +17,6 @@
 #include "engine/error.h"
 #include "engine/publish/scheduled_run.h"
 #include "engine/system/write_file.h"
-#include "render/context/context.h"
 
 namespace clatter {
 
@@ -149,10 +149,7 @@ int bench_cores(const std::string& json, const std::string& plot_file, const Cor
     }
   }
   if (!json.empty()) write_file(json, rows.dump(1) + "\n");
-  if (!plot_file.empty()) {
-    const auto context = open_context(Backend::Auto);
-    write_png(plot_file, plot_image(context->gl(), plot, {1600, 1000}, kLightTheme));
-  }
+  if (!plot_file.empty()) write_plot(plot_file, plot);
   return kOk;
 }
 

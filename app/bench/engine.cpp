@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "app/bench/plot_file.h"
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
 #include "app/system/process_usage.h"
@@ -18,7 +19,6 @@
 #include "engine/publish/scheduled_run.h"
 #include "engine/system/platform.h"
 #include "engine/system/write_file.h"
-#include "render/context/context.h"
 
 namespace clatter {
 
@@ -206,10 +206,7 @@ int bench_growth(const std::string& json, const std::string& plot, int count) {
     rows.push_back(std::move(row));
   }
   if (!json.empty()) write_file(json, rows.dump(1) + "\n");
-  if (!plot.empty()) {
-    const auto context = open_context(Backend::Auto);
-    write_png(plot, plot_image(context->gl(), growth_plot(rates), {1600, 1000}, kLightTheme));
-  }
+  if (!plot.empty()) write_plot(plot, growth_plot(rates));
   return kOk;
 }
 

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "render/layers/plot.h"
+
+namespace clatter {
+
+/// Writes the plot of a benchmark as a PNG file of 1600 x 1000 pixels. Throws RunError.
+void write_plot(const std::string& file, const Plot& plot);
+
+}  // namespace clatter
