@@ -17,6 +17,7 @@
 #include "engine/scene/enum_names.h"
 #include "engine/scene/key_writer.h"
 #include "engine/scene/scene_file.h"
+#include "engine/scene/text.h"
 
 namespace clatter {
 
@@ -400,6 +401,15 @@ void Gui::use_cells() {
   }
   const Area selected = viewport_.cell(area_.low, scale_);
   ImGui::GetBackgroundDrawList()->AddRect(selected.low, selected.high, packed(accent_colour()));
+}
+
+// Names the chosen controls that the panels of a new run lack.
+void Gui::name_missing_controls() {
+  for (const auto& [name, near] : controls_.take_missing()) {
+    if (checked_run_ == session_.frame().run) continue;
+    session_.tell("the scene has no control " + in_quotes(name) +
+                  (near.empty() ? "" : "; try " + in_quotes(near)));
+  }
 }
 
 // The titles of compared gases: a letter, and the keys in which they differ.

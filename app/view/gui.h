@@ -123,6 +123,7 @@ class Gui {
   void use_viewport();
   void use_cells();
   void name_gases();
+  void name_missing_controls();
   std::vector<PlottedGas> plotted_gases();
   void log_handles(const WindowMap& map) const;
   void open_gallery_scene(const EmbeddedFile& scene);

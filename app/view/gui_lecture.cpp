@@ -16,7 +16,6 @@
 #include "app/view/plot.h"
 #include "app/view/style.h"
 #include "engine/scene/enum_names.h"
-#include "engine/scene/text.h"
 #include "render/layers/fonts.h"
 
 // Lecture mode: the gas with three sliders, a large plot and the tools of a lecturer.
@@ -183,7 +182,6 @@ void Gui::draw_sliders(const std::vector<std::string>& names, std::size_t column
   const float gap = 2.0f * ImGui::GetStyle().ItemSpacing.x;
   const auto count = static_cast<float>(columns);
   const float width = std::floor((ImGui::GetContentRegionAvail().x - (count - 1.0f) * gap) / count);
-  const bool checks = checked_run_ != session_.frame().run;
   for (std::size_t k = 0; k < names.size(); ++k) {
     if (k % columns > 0) ImGui::SameLine(0.0f, gap);
     ImGui::BeginChild(names[k].c_str(), ImVec2(width, slider_height(names[k])), false,
@@ -197,11 +195,7 @@ void Gui::draw_sliders(const std::vector<std::string>& names, std::size_t column
     all_controls();
     slider_heights_[names[k]] = std::round(ImGui::GetCursorPosY());
     ImGui::EndChild();
-    for (const auto& [name, near] : controls_.take_missing()) {
-      if (!checks) continue;
-      session_.tell("the scene has no control " + in_quotes(name) +
-                    (near.empty() ? "" : "; try " + in_quotes(near)));
-    }
+    name_missing_controls();
   }
   checked_run_ = session_.frame().run;
 }

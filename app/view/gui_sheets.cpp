@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "app/view/gui.h"
 #include "app/view/panels.h"
 #include "app/view/style.h"
 #include "app/view/top_bar.h"
-#include "engine/scene/text.h"
 
 // The panels of narrow windows, one sheet at a time, and of an embedded gas.
 
@@ -131,12 +129,8 @@ void Gui::chosen_controls() {
   const bool empty = end == start;
   strip_ = empty ? 0.0f : end - ImGui::GetStyle().ItemSpacing.y + ImGui::GetStyle().WindowPadding.y;
   ImGui::End();
-  const auto missing = controls_.take_missing();
-  if (std::exchange(checked_run_, session_.frame().run) == session_.frame().run) return;
-  for (const auto& [name, near] : missing) {
-    session_.tell("the scene has no control " + in_quotes(name) +
-                  (near.empty() ? "" : "; try " + in_quotes(near)));
-  }
+  name_missing_controls();
+  checked_run_ = session_.frame().run;
 }
 
 bool Gui::shows_gas(float x, float y) const {

@@ -20,6 +20,7 @@
 #include "engine/scene/scene_file.h"
 #include "render/layers/gui_context.h"
 #include "tests/app/gui_driver.h"
+#include "tests/app/offscreen_window.h"
 #include "tests/support/temporary_folder.h"
 
 namespace clatter {
@@ -40,6 +41,28 @@ TEST_CASE("Lecture: the sliders of a scene are its restitution and drive") {
   scene.bulk_drive = BulkDrive{};
   CHECK(usual_sliders(scene) ==
         Names{"walls.top.temperature", "bulk_drive.kick_speed", "particles.restitution"});
+}
+
+TEST_CASE("Lecture: a slider that the scene lacks is named beside the nearest one") {
+  OffscreenWindow window(parse_scene("particles = { count = 5 }\n"
+                                     "view.lecture.sliders = [\"particles.restitutio\"]\n",
+                                     "gas"));
+  window.press('l');
+  window.settle();
+  CHECK(window.logged("message")["text"] ==
+        "the scene has no control \"particles.restitutio\"; try \"particles.restitution\"");
+}
+
+TEST_CASE("Lecture: the stopwatch of a halted gas has real time alone") {
+  OffscreenWindow window(parse_scene("particles = { count = 5 }\n", "gas"));
+  window.press('l');
+  window.settle();
+  window.click("lecture.stopwatch");
+  window.click("lecture.stopwatch");
+  const json stopped = window.logged("stopwatch");
+  CHECK(stopped["runs"] == false);
+  CHECK(stopped["simulated"] == 0.0);
+  CHECK(stopped["seconds"] > 0.0);
 }
 
 TEST_CASE("Lecture: a stopwatch starts, stops with its times, and returns to zero") {
