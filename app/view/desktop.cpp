@@ -7,23 +7,24 @@
 
 namespace clatter {
 
-// A pressed key in the current keyboard layout. GLFW names a key by its place on a US keyboard.
-static KeyPress press_of(int key, int held) {
-  KeyPress press{key, 0, (held & GLFW_MOD_SHIFT) != 0, (held & GLFW_MOD_CONTROL) != 0};
+// The letter, comma or period of a key in the current keyboard layout; 0: another sign. Alphabets
+// without such letters have those of a US keyboard.
+static char sign_of(int key) {
+  if (key > GLFW_KEY_WORLD_2) return 0;
   const char* name = glfwGetKeyName(key, 0);
-  const int us = key >= GLFW_KEY_A && key <= GLFW_KEY_Z ? key : 0;
-  const int sign = name && !name[1] ? std::toupper(name[0]) : us;
-  if (sign >= 'A' && sign <= 'Z') press.letter = static_cast<char>(std::tolower(sign));
-  if (press.letter || sign == ',' || sign == '.') press.key = sign;
-  return press;
+  const bool on_us = key >= GLFW_KEY_A && key <= GLFW_KEY_Z;
+  const int sign = name && !name[1] ? name[0] : on_us ? key : 0;
+  return std::isalpha(sign) || sign == ',' || sign == '.' ? static_cast<char>(std::tolower(sign))
+                                                          : 0;
 }
 
 Desktop::Desktop(GLFWwindow* window, WindowInput& input) : window_(window) {
   glfwSetWindowUserPointer(window, &input);
   glfwSetKeyCallback(window, [](GLFWwindow* of, int key, int, int action, int held) {
     if (action == GLFW_RELEASE || key == GLFW_KEY_UNKNOWN) return;
-    const KeyPress press = press_of(key, held);
-    if (action == GLFW_REPEAT && !repeats(press.key)) return;
+    const KeyPress press{key, sign_of(key), (held & GLFW_MOD_SHIFT) != 0,
+                         (held & GLFW_MOD_CONTROL) != 0};
+    if (action == GLFW_REPEAT && !repeats(press)) return;
     static_cast<WindowInput*>(glfwGetWindowUserPointer(of))->press(press);
   });
   glfwSetCursorPosCallback(window, [](GLFWwindow* of, double x, double y) {

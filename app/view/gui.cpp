@@ -405,8 +405,9 @@ void Gui::use_cells() {
 
 // Names the chosen controls that the panels of a new run lack.
 void Gui::name_missing_controls() {
-  for (const auto& [name, near] : controls_.take_missing()) {
-    if (checked_run_ == session_.frame().run) continue;
+  const auto missing = controls_.take_missing();
+  if (checked_run_ == session_.frame().run) return;
+  for (const auto& [name, near] : missing) {
     session_.tell("the scene has no control " + in_quotes(name) +
                   (near.empty() ? "" : "; try " + in_quotes(near)));
   }

@@ -15,6 +15,12 @@
 
 namespace clatter {
 
+// Whether a sign is typed before the next picture.
+static bool types(char sign) {
+  const auto& typed = ImGui::GetIO().InputQueueCharacters;
+  return std::find(typed.begin(), typed.end(), static_cast<ImWchar>(sign)) != typed.end();
+}
+
 void Gui::use_keys() {
   for (const std::string& file : input_.take_dropped()) open_file(file);
   for (const KeyPress& press : input_.take_presses()) {
@@ -57,19 +63,15 @@ void Gui::use_key(const KeyPress& press) {
   if (press.ctrl) return use_control_key(press);
   // An embedded gas has no other parts.
   const bool opens = press.key == GLFW_KEY_TAB ||
-                     std::string_view("ghlpt").find(press.letter) != std::string_view::npos;
+                     std::string_view("ghlpt").find(press.sign) != std::string_view::npos;
   if (controls_.chooses() && opens) return;
   // Who types a name into the gallery before the search is active must not restart the gas.
-  if (panels_.gallery && press.letter != 'g' && press.letter != 'h') return;
+  if (panels_.gallery && press.sign != 'g' && press.sign != 'h') return;
   switch (press.key) {
     case GLFW_KEY_TAB:
       return panels_.toggle_panels();
     case GLFW_KEY_SPACE:
       return session_.play(!session_.frame().plays);
-    case GLFW_KEY_PERIOD:
-      return press.shift ? session_.step_collision() : session_.step_frame();
-    case GLFW_KEY_COMMA:
-      return press.shift ? session_.step_collision_back() : session_.step_frame_back();
     case GLFW_KEY_LEFT:
       return session_.skip(-1.0);
     case GLFW_KEY_RIGHT:
@@ -81,8 +83,13 @@ void Gui::use_key(const KeyPress& press) {
     default:
       break;
   }
-  if (panels_.lecture && use_lecture_key(press.letter)) return;
-  switch (press.letter) {
+  if (panels_.lecture && use_lecture_key(press.sign)) return;
+  switch (press.sign) {
+    case '.':
+    case ',':
+      // In some layouts Shift and this key type the other sign.
+      if (!press.shift || types(',') || types('.')) return;
+      return press.sign == '.' ? session_.step_collision() : session_.step_collision_back();
     case 'b':
       return session_.frame().backwards ? session_.play(true) : session_.play_backwards();
     case 'c':
@@ -114,7 +121,7 @@ void Gui::use_key(const KeyPress& press) {
     case 'v':
       return trace();
     default:
-      return face_preset(press.letter);
+      return face_preset(press.sign);
   }
 }
 
@@ -136,7 +143,7 @@ bool Gui::use_lecture_key(char key) {
 }
 
 void Gui::use_control_key(const KeyPress& press) {
-  switch (press.letter) {
+  switch (press.sign) {
     case 'z':
       return press.shift ? session_.redo() : session_.undo();
     case 'y':
@@ -156,6 +163,8 @@ void Gui::use_signs() {
   for (const ImWchar sign : ImGui::GetIO().InputQueueCharacters) {
     if (sign == '+' || sign == '=') session_.change_speed(true);
     if (sign == '-') session_.change_speed(false);
+    if (sign == '.' && !panels_.gallery) session_.step_frame();
+    if (sign == ',' && !panels_.gallery) session_.step_frame_back();
     if (sign == '[') step_scene(-1);
     if (sign == ']') step_scene(1);
     const auto tool = static_cast<std::size_t>(sign) - '1';

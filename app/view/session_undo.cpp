@@ -2,7 +2,6 @@
 // exchange of futures, or acts on the gas, such as nudges.
 
 #include <algorithm>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
 

@@ -7,9 +7,9 @@
 
 namespace clatter {
 
-bool repeats(int key) {
-  return key == GLFW_KEY_PERIOD || key == GLFW_KEY_COMMA || key == GLFW_KEY_LEFT ||
-         key == GLFW_KEY_RIGHT;
+bool repeats(const KeyPress& press) {
+  return press.key == GLFW_KEY_LEFT || press.key == GLFW_KEY_RIGHT || press.sign == ',' ||
+         press.sign == '.';
 }
 
 std::optional<std::array<float, 2>> WindowInput::take_mouse_press() {

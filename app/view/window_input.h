@@ -9,14 +9,15 @@ namespace clatter {
 
 /// A key press with its modifiers.
 struct KeyPress {
-  int key = 0;      ///< GLFW key code; letters, comma and period are those of the layout
-  char letter = 0;  ///< lower-case letter of the key in the current keyboard layout; 0: no letter
+  int key = 0;    ///< GLFW key code, by its place on a US keyboard
+  char sign = 0;  ///< lower-case letter, comma or period of the key in the keyboard layout, without
+                  ///< Shift; 0: another sign
   bool shift = false;
   bool ctrl = false;
 };
 
 /// Whether a key presses again while it is held down: the keys that step in time.
-bool repeats(int key);
+bool repeats(const KeyPress& press);
 
 /// Key presses, presses of the mouse and dropped files of a window. Dear ImGui samples keys and
 /// mouse once per frame, and so misses a key that was released before, and the place of a press

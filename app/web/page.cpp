@@ -158,7 +158,7 @@ class Page {
     io.KeysDown[press.key] = down;
     io.KeyShift = press.shift;
     io.KeyCtrl = press.ctrl;
-    if (down && (!repeated || repeats(press.key))) input_.press(press);
+    if (down && (!repeated || repeats(press))) input_.press(press);
     settle();
   }
 
@@ -287,9 +287,9 @@ EMSCRIPTEN_KEEPALIVE void clatter_scroll(double x, double y, double pixels) {
 EMSCRIPTEN_KEEPALIVE void clatter_lift() {
   page->lift();
 }
-EMSCRIPTEN_KEEPALIVE void clatter_key(int key, int letter, int shift, int ctrl, int down,
+EMSCRIPTEN_KEEPALIVE void clatter_key(int key, int sign, int shift, int ctrl, int down,
                                       int repeated) {
-  page->use_key({key, static_cast<char>(letter), shift != 0, ctrl != 0}, down != 0, repeated != 0);
+  page->use_key({key, static_cast<char>(sign), shift != 0, ctrl != 0}, down != 0, repeated != 0);
 }
 EMSCRIPTEN_KEEPALIVE void clatter_type(const char* text) {
   page->type(text);

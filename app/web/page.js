@@ -236,26 +236,35 @@ const special = {
 };
 
 function code_of(event) {
-  // Letters, comma and period are those of the keyboard layout.
-  if (/^[a-z,.]$/i.test(event.key)) return event.key.toUpperCase().charCodeAt(0);
   if (/^Key[A-Z]$/.test(event.code)) return event.code.charCodeAt(3);
   if (/^Digit[0-9]$/.test(event.code)) return event.code.charCodeAt(5);
   if (event.code === 'NumpadEnter') return special.Enter;
   return special[event.code] || 0;
 }
 
+// The letter, comma or period of a key in the keyboard layout, without Shift; empty: another sign.
+// Alphabets without such letters have those of a US keyboard.
+function sign_of({key, code, shiftKey}) {
+  if (/^Numpad/.test(code)) return '';
+  if (/^[a-z,.]$/i.test(key)) return key.toLowerCase();
+  if (/^Key[A-Z]$/.test(code) && !/^[ -~]$/.test(key)) return code[3].toLowerCase();
+  if (shiftKey && (key === '>' || (key === ':' && code === 'Period'))) return '.';
+  if (shiftKey && (key === '<' || (key === ';' && code === 'Comma'))) return ',';
+  return '';
+}
+
 function on_key(event) {
   const code = code_of(event);
-  const letter = /^[a-z]$/i.test(event.key) ? event.key.toLowerCase().charCodeAt(0) : 0;
+  const sign = sign_of(event);
   const ctrl = event.ctrlKey || event.metaKey;
   const down = event.type === 'keydown';
-  if (code) Module._clatter_key(code, letter, event.shiftKey, ctrl, down, event.repeat);
+  if (code) Module._clatter_key(code, sign ? sign.charCodeAt(0) : 0, event.shiftKey, ctrl, down, event.repeat);
   if (down && !ctrl && !event.altKey && [...event.key].length === 1) {
     text_of('clatter_type', event.key);
   }
   wake();
   // The keys of the browser itself keep their meaning: reload, search, new tab.
-  const own = !ctrl || 'zys'.includes(event.key.toLowerCase());
+  const own = !ctrl || 'zys'.includes(sign || '-');
   if (code && own && !event.altKey && event.code !== 'F11') event.preventDefault();
 }
 

@@ -8,7 +8,7 @@
 
 namespace clatter {
 
-/// The colour of the lines and of the edges of the markers of a series, by its number.
+/// The colour of the lines and of the edges of the markers of a series, by its number from 0.
 Colour series_ink(std::size_t series);
 
 /// The colour inside of the markers of a series.

@@ -12,6 +12,8 @@ class TextWidths {
  public:
   /// Measures texts with these letters.
   explicit TextWidths(const std::string& letters);
+  TextWidths(const TextWidths&) = delete;
+  TextWidths& operator=(const TextWidths&) = delete;
 
   /// The width of a text of one line. `size` is in pixels per em.
   double operator()(const std::string& text, double size) const;

@@ -54,7 +54,7 @@ void OffscreenWindow::settle() {
 }
 
 void OffscreenWindow::press(char letter) {
-  input_.press({.key = letter - 'a' + 'A', .letter = letter});
+  input_.press({.key = letter - 'a' + 'A', .sign = letter});
   draw();
 }
 
@@ -130,11 +130,12 @@ std::string OffscreenWindow::text(const std::string& part) const {
 }
 
 bool OffscreenWindow::comes_to(const std::function<bool()>& holds) {
-  for (int look = 0; look < 2000 && !holds(); ++look) {
+  for (int look = 0; look < 2000; ++look) {
+    if (holds()) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     gui_->draw();
   }
-  return holds();
+  return false;
 }
 
 bool OffscreenWindow::comes_to_say(const std::string& part, const std::string& words) {

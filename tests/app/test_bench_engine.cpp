@@ -126,6 +126,9 @@ TEST_CASE("Bench: a cell of the table of cores has the gas as a whole and in til
     CHECK(row["busy"] <= 1.1);
   }
   CHECK(threads == std::vector<int>{0, 1, 2, 3});
+  // One thread and three threads have the same tiles, so the same work. Only the times differ.
+  for (const char* share : {"redundant", "redone"}) CHECK(rows[1][share] == rows[3][share]);
+  CHECK(rows[1]["busy"] != rows[3]["busy"]);
   CHECK(std::regex_search(outcome.out, std::regex("\n +100000 +0\\.250 +whole ")));
   check_columns(outcome.out, rows, "N phi threads Mcoll/s of whole busy redundant redone",
                 {{"million_collisions_per_second", " %.3f"},

@@ -127,6 +127,7 @@ set = { "walls.left.temperature" = 3.0 }
 TEST_CASE("Golden window: the timeline of a run that stopped by itself") {
   Scene scene = load_scene("collapse");
   scene.contact_time.reset();
+  scene.view.speed = 1000.0;
   OffscreenWindow window(scene, 900.0f, 600.0f, 1000.0);
   window.settle();
   REQUIRE(testing::says(window.logged("message")["text"], "inelastic collapse"));

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "engine/scene/scene_file.h"
+#include "render/colour_range.h"
 #include "tests/app/panel_actions.h"
 #include "tests/support/messages.h"
 
@@ -153,11 +155,11 @@ TEST_CASE("Panels: a range that becomes given has round ends around the values")
     });
     session->play_until(1.0);
     driver.wait_for([](const Frame& frame) { return frame.snapshot.time == 1.0; });
-    const auto& map = session->frame().snapshot.field;
-    REQUIRE(map);
     choose(driver, "view.field_range", "given");
     choose(driver, "view.range", "given");
     const View& view = session->view();
+    const std::optional<FieldMap> map = session->frame().snapshot.field;
+    REQUIRE(map);
     double most = 0.0;
     for (const double value : map->values) {
       if (std::isfinite(value)) most = std::max(most, std::fabs(value));
@@ -170,6 +172,9 @@ TEST_CASE("Panels: a range that becomes given has round ends around the values")
     CHECK(view.range.ends[0] == (signs ? -view.range.ends[1] : 0.0));
     CHECK(view.range.ends[1] >= 1.9 * speed);
     CHECK(view.range.ends[1] <= 2.6 * 2.0 * speed);
+    for (const double end : {view.field_range.ends[1], view.range.ends[1]}) {
+      CHECK(round_up(end) == end);
+    }
   }
 }
 

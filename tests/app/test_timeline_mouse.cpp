@@ -3,7 +3,10 @@
 #include <doctest/doctest.h>
 #include <imgui.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 
 #include "engine/scene/scene_file.h"
 #include "tests/app/offscreen_window.h"
@@ -17,9 +20,10 @@ constexpr double kEnd = 10.0;  // of the run
 // A window with a run that has ended, and a timeline of some 700 pixels.
 class RunWindow {
  public:
-  explicit RunWindow(const std::string& changes = "", double speed = 1000.0)
-      : window(parse_scene("box.size = [8.0, 6.0]\nparticles = { count = 5 }\nview.speed = " +
-                               std::to_string(speed) + "\n" + changes,
+  explicit RunWindow(const std::string& changes = "")
+      : window(parse_scene("box.size = [8.0, 6.0]\nparticles = { count = 5 }\n"
+                           "view.speed = 1000.0\n" +
+                               changes,
                            "run"),
                900.0f, 600.0f, kEnd) {
     window.settle();
@@ -67,7 +71,7 @@ const std::string kTwoChanges = R"(
 time = 4.0
 set = { "particles.restitution" = 0.8 }
 [[change]]
-time = 4.1
+time = 4.16
 set = { "particles.restitution" = 0.7 }
 )";
 
@@ -81,21 +85,26 @@ TEST_CASE("Timeline: a click near a change or an end of the run jumps to it, exa
     return run.time();
   };
   CHECK(jumped(run.place(4.0) - 4.0f) == 4.0);
-  CHECK(jumped(run.place(4.1) + 3.0f) == 4.1);
+  CHECK(jumped(run.place(4.16) + 3.0f) == 4.16);
+  CHECK(jumped(run.place(4.16) - 3.0f) == 4.16);
   CHECK(jumped(run.place(4.0) + 2.0f) == 4.0);
   CHECK(jumped(run.place(0.0) + 4.0f) == 0.0);
   CHECK(jumped(run.place(kEnd) - 4.0f) == kEnd);
-  CHECK(jumped(run.place(6.0)) == doctest::Approx(run.time_at(run.place(6.0))).epsilon(1e-6));
+  for (const float place : {run.place(6.0), run.place(4.0) - 12.0f, run.place(kEnd) - 12.0f}) {
+    CHECK(jumped(place) == doctest::Approx(run.time_at(place)).epsilon(1e-6));
+  }
 }
 
 TEST_CASE("Timeline: the nearest of two marks is dragged, to a time with few digits") {
-  RunWindow run(kTwoChanges);
-  // A pixel has 0.015 time units, so the digits end at tenths.
-  run.drag(run.place(4.0) - 2.0f, run.place(7.03), true);
-  run.window.settle();
-  const auto moved = run.window.logged("move_change");
-  CHECK(moved["number"] == 0);
-  CHECK(moved["to"].get<double>() == doctest::Approx(7.0).epsilon(1e-12));
+  for (const int mark : {0, 1}) {
+    RunWindow run(kTwoChanges);
+    // A pixel has 0.02 time units, so the digits end at tenths. Both marks are in reach.
+    run.drag(mark == 0 ? run.place(4.0) + 2.0f : run.place(4.16) - 3.0f, run.place(7.03), true);
+    run.window.settle();
+    const auto moved = run.window.logged("move_change");
+    CHECK(moved["number"] == mark);
+    CHECK(moved["to"].get<double>() == doctest::Approx(7.0).epsilon(1e-12));
+  }
 }
 
 TEST_CASE("Timeline: a drag with Shift repeats the stretch, in either direction") {
@@ -118,9 +127,14 @@ TEST_CASE("Timeline: a drag with Shift repeats the stretch, in either direction"
 TEST_CASE("Timeline: after a click a gas continues in its direction") {
   for (const bool backwards : {true, false}) {
     CAPTURE(backwards);
-    RunWindow run("", 8.0);
+    RunWindow run;
     run.click(run.place(5.0));
     run.window.settle();
+    do {
+      ImGui::GetIO().AddInputCharacter('-');
+      run.window.draw();
+      run.window.settle();
+    } while (run.window.logged("speed")["speed"] > 0.1);
     const auto moves = [&] {
       const auto status = run.window.logged("status");
       return status["plays"] == true && status["backwards"] == backwards;
@@ -129,8 +143,10 @@ TEST_CASE("Timeline: after a click a gas continues in its direction") {
     REQUIRE(run.window.comes_to(moves));
     run.click(run.place(6.0));
     const auto jumped = run.window.logged("jump")["command"];
-    CHECK(run.window.comes_to(
+    REQUIRE(run.window.comes_to(
         [&] { return moves() && run.window.logged("status")["handled"] > jumped; }));
+    CHECK((run.time() < run.time_at(run.place(6.0))) == backwards);
+    CHECK(run.time() == doctest::Approx(6.0).epsilon(0.1));
   }
 }
 

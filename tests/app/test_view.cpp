@@ -52,6 +52,10 @@ TEST_CASE("Window: letters, comma and period are those of the keyboard layout") 
   std::size_t told = driver.told();
   driver.key("ctrl+z");
   driver.wait_for("undo", told);
+  const json undone = driver.wait_for("set", told);
+  driver.wait_for("status", told, [&](const json& status) {
+    return halted(status) && status["handled"] >= undone["command"];
+  });
   const auto time_after = [&](const std::string& key) {
     told = driver.told();
     driver.key(key);
@@ -65,6 +69,15 @@ TEST_CASE("Window: letters, comma and period are those of the keyboard layout") 
   driver.key("l");
   driver.place("viewport", told);
   for (const char* step : {"step_frame", "jump"}) CHECK(driver.events(step).size() == 1);
+  told = driver.told();
+  driver.key("shift+period");
+  driver.wait_for("step_collision", told);
+
+  // Other alphabets have the letters of a US keyboard.
+  REQUIRE(driver.run("setxkbmap ru").code == 0);
+  told = driver.told();
+  driver.key("ctrl+Cyrillic_en");
+  driver.wait_for("redo", told);
 }
 
 TEST_CASE("Window: it halts at the time of --until") {

@@ -1,16 +1,20 @@
 // The picture of the gas in the window: its cameras, and the mouse on it.
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
 #include <doctest/doctest.h>
 #include <imgui.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "app/view/viewport.h"
 #include "engine/publish/scheduled_run.h"
 #include "engine/scene/scene_file.h"
 #include "render/context/context.h"
+#include "render/layers/gui_context.h"
 #include "render/output/cells.h"
 #include "tests/app/offscreen_window.h"
 #include "tests/render/picture.h"
@@ -32,25 +36,15 @@ Frame frame_of(const Scene& scene) {
   return frame;
 }
 
-// The picture of a gas that shows its whole box, or what a camera sees.
-class Drawn {
- public:
-  explicit Drawn(const Gl& gl) : gl_(&gl), renderer_(gl) {}
-
-  Image picture(const Frame& frame, Size size, const OverlayText& text) {
-    return picture(frame, size, text, renderer_.fit(frame.snapshot, size, frame.scene->view, text));
-  }
-  Image picture(const Frame& frame, Size size, const OverlayText& text, const Camera& camera) {
-    const Canvas canvas(*gl_, size);
-    canvas.bind();
-    renderer_.draw(frame.snapshot, camera, size, frame.scene->view, text);
-    return canvas.read();
-  }
-
- private:
-  const Gl* gl_;
-  Renderer renderer_;
-};
+// The picture of a whole gas in a film.
+Image film_picture(const Gl& gl, const Frame& frame, Size size, const OverlayText& text) {
+  const View& view = frame.scene->view;
+  Renderer renderer(gl);
+  const Canvas canvas(gl, size);
+  canvas.bind();
+  renderer.draw(frame.snapshot, renderer.fit(frame.snapshot, size, view, text), size, view, text);
+  return canvas.read();
+}
 
 // The pixels of a cell of three.
 std::vector<std::uint8_t> cell_of(const Image& picture, int number) {
@@ -114,7 +108,7 @@ TEST_CASE("Viewport: it draws a gas with its heading as a film does") {
       .title = scene.title, .caption = scene.caption, .letters = 1.2, .least = 14.0, .speed = 2.0};
   Viewport viewport(context->gl());
   viewport.draw(frame, scene.view, size, 1.2, 14.0, true, {});
-  CHECK(viewport.picture().rgba == Drawn(context->gl()).picture(frame, size, text).rgba);
+  CHECK(viewport.picture().rgba == film_picture(context->gl(), frame, size, text).rgba);
 }
 
 TEST_CASE("Viewport: compared gases with equal boxes have the camera of the selected one") {
@@ -224,7 +218,8 @@ TEST_CASE("Viewport: a double click follows a disk, until the whole box is shown
   const ImVec2 moved(area[0] + 0.5f * area[2] - place.x, area[1] + 0.5f * area[3] - place.y);
   check_walls(window, {left + moved.x, right + moved.x, top + moved.y, bottom + moved.y});
   window.press('f');
-  window.press_key(GLFW_KEY_PERIOD);
+  ImGui::GetIO().AddInputCharacter('.');
+  window.draw();
   window.settle();
   check_walls(window, whole);
 }
