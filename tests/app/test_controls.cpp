@@ -1,12 +1,15 @@
 // The panels, plots and walls of the window, by mouse and keys on a virtual display.
 
 #include <doctest/doctest.h>
+#include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
+#include "engine/scene/scene_file.h"
 #include "tests/app/gui_driver.h"
+#include "tests/app/offscreen_window.h"
 
 namespace clatter {
 
@@ -40,6 +43,24 @@ std::vector<double> column_of(const std::string& table, const std::string& name)
 }
 
 }  // namespace
+
+TEST_CASE("Controls: a typed number beyond the range becomes its end, with its digits") {
+  OffscreenWindow window(parse_scene("box.size = [16.0, 12.0]\nparticles = { count = 5 }\n", "gas"),
+                         900.0f, 700.0f);
+  window.click("tool.heat");
+  const auto answer = [&](const std::string& widget, const std::string& number) {
+    window.click(widget + ".number");
+    for (const char digit : number) {
+      ImGui::GetIO().AddInputCharacter(static_cast<unsigned>(digit));
+      window.draw();
+    }
+    window.click("viewport");
+    return window.logged("message")["text"].get<std::string>();
+  };
+  CHECK(answer("particles.restitution", "1.5") == "Restitution: at most 1.000");
+  CHECK(answer("tool.radius", "50") == "Radius: at most 16 a");
+  CHECK(answer("tool.radius", "0.1") == "Radius: at least 0.5 a");
+}
 
 TEST_SUITE_BEGIN("window");
 
