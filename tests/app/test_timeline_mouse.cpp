@@ -104,6 +104,8 @@ TEST_CASE("Timeline: the nearest of two marks is dragged, to a time with few dig
     const auto moved = run.window.logged("move_change");
     CHECK(moved["number"] == mark);
     CHECK(moved["to"].get<double>() == doctest::Approx(7.0).epsilon(1e-12));
+    // The runs differ from the former time.
+    CHECK(run.head() == (mark == 0 ? 4.0 : 4.16));
   }
 }
 

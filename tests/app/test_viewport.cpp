@@ -28,10 +28,12 @@ using testing::wall_in;
 
 namespace {
 
-Frame frame_of(const Scene& scene) {
+Frame frame_of(const Scene& scene, double time = 0.0) {
   Frame frame;
   frame.run = 1;
-  frame.snapshot = ScheduledRun<2>(scene, 1).snapshot();
+  ScheduledRun<2> run(scene, 1);
+  run.run_until(time);
+  frame.snapshot = run.snapshot();
   frame.scene = std::make_shared<const Scene>(scene);
   return frame;
 }
@@ -99,15 +101,15 @@ TEST_CASE("Viewport: it draws a gas with its heading as a film does") {
   Scene scene = box_of_disks();
   scene.title = "Box";
   scene.caption = "Four walls.";
-  // At the end of a caption that fades out in half a second, the speed sets its opacity.
-  scene.view.captions = {{.text = "Until soon", .to = 0.4}};
-  Frame frame = frame_of(scene);
+  // The caption fades out in half a second of playing.
+  scene.view.captions = {{.text = "Until soon", .to = 4.0}};
+  Frame frame = frame_of(scene, 3.7);
   frame.speed = 2.0;
   const Size size{320, 240};
   const OverlayText text{
-      .title = scene.title, .caption = scene.caption, .letters = 1.2, .least = 14.0, .speed = 2.0};
+      .title = scene.title, .caption = scene.caption, .letters = 1.2, .least = 30.0, .speed = 2.0};
   Viewport viewport(context->gl());
-  viewport.draw(frame, scene.view, size, 1.2, 14.0, true, {});
+  viewport.draw(frame, scene.view, size, 1.2, 30.0, true, {});
   CHECK(viewport.picture().rgba == film_picture(context->gl(), frame, size, text).rgba);
 }
 
