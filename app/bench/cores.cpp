@@ -24,16 +24,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The run of a gas on a number of threads.
-struct CoresRate {
-  int threads = 0;         // 0: the gas as a whole
-  double rate = 0.0;       // millions of pair collisions per second of wall time
-  double busy = 1.0;       // share of the time in which the threads compute
-  double redundant = 0.0;  // collisions of copies, per collision of the gas
-  double redone = 0.0;     // share of the runs of tiles that repeat a run
-  std::uint64_t hash = 0;  // of the state at the end
-};
-
 template <int D>
 CoresRate measure_rate(const Model<D>& model, const RunState<D>& start, double fraction,
                        int threads, std::uint64_t collisions) {
@@ -103,14 +93,23 @@ std::vector<EngineCell> cores_cells(const CoresTable& table) {
   return cells;
 }
 
-Plot empty_cores_plot(int dimension) {
-  return {.title = "Collision rate on several threads",
-          .caption = fmt::format("Elastic {} in a periodic box; the smallest number of threads: "
-                                 "the gas as a whole",
-                                 dimension == 2 ? "disks" : "spheres"),
-          .x_name = "threads",
-          .y_name = "million collisions per second",
-          .panels = {}};
+Plot cores_plot(int dimension, const std::vector<CoresRate>& rates) {
+  Plot plot{.title = "Collision rate on several threads",
+            .caption = fmt::format("Elastic {} in a periodic box; the smallest number of threads: "
+                                   "the gas as a whole",
+                                   dimension == 2 ? "disks" : "spheres"),
+            .x_name = "threads",
+            .y_name = "million collisions per second",
+            .panels = {}};
+  for (const CoresRate& rate : rates) {
+    const bool whole = rate.threads == 0;
+    if (whole) {
+      plot.panels.push_back({fmt::format("N = {}, phi = {:g}", rate.count, rate.fraction), {}});
+    }
+    plot.panels.back().points.push_back({whole ? 0.5 : static_cast<double>(rate.threads), rate.rate,
+                                         fmt::format("{:.2f}", rate.rate), false});
+  }
+  return plot;
 }
 
 int bench_cores(const std::string& json, const std::string& plot_file, const CoresTable& table) {
@@ -123,13 +122,15 @@ int bench_cores(const std::string& json, const std::string& plot_file, const Cor
   std::printf("%10s %6s %8s %9s %9s %6s %10s %7s\n", "N", "phi", "threads", "Mcoll/s", "of whole",
               "busy", "redundant", "redone");
   Json rows = Json::array();
-  Plot plot = empty_cores_plot(table.dimension);
+  std::vector<CoresRate> all;
   for (const auto& [count, phi] : cells) {
     const Scene scene = elastic_gas(count, phi, table.dimension);
     const std::vector<CoresRate> rates = with_dimension(
         table.dimension, [&](auto dimension) { return measure_gas<dimension>(scene, most); });
-    plot.panels.push_back({fmt::format("N = {}, phi = {:g}", count, phi), {}});
-    for (const CoresRate& rate : rates) {
+    for (CoresRate rate : rates) {
+      rate.count = count;
+      rate.fraction = phi;
+      all.push_back(rate);
       const double of_whole = rate.rate / rates.front().rate;
       const bool whole = rate.threads == 0;
       std::printf("%10d %6.3f %8s %9.3f %9.2f %6.2f %10.2f %7.3f\n", count, phi,
@@ -144,12 +145,10 @@ int bench_cores(const std::string& json, const std::string& plot_file, const Cor
                       {"busy", rate.busy},
                       {"redundant", rate.redundant},
                       {"redone", rate.redone}});
-      plot.panels.back().points.push_back({whole ? 0.5 : static_cast<double>(rate.threads),
-                                           rate.rate, fmt::format("{:.2f}", rate.rate), false});
     }
   }
   if (!json.empty()) write_file(json, rows.dump(1) + "\n");
-  if (!plot_file.empty()) write_plot(plot_file, plot);
+  if (!plot_file.empty()) write_plot(plot_file, cores_plot(table.dimension, all));
   return kOk;
 }
 

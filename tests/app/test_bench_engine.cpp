@@ -159,14 +159,27 @@ TEST_CASE("Bench: the table of cores has large gases, up to the number asked for
   }
 }
 
-TEST_CASE("Bench: the plot of cores names its gas and its axes") {
-  const Plot plot = empty_cores_plot(2);
+TEST_CASE("Bench: the plot of cores has the rates of each gas over the threads") {
+  const Plot plot = cores_plot(2, {{.count = 100, .fraction = 0.3, .rate = 2.346},
+                                   {.count = 100, .fraction = 0.3, .threads = 1, .rate = 1.5},
+                                   {.count = 7000, .fraction = 0.7, .rate = 2.0}});
   CHECK(plot.title == "Collision rate on several threads");
   CHECK(plot.caption ==
         "Elastic disks in a periodic box; the smallest number of threads: the gas as a whole");
   CHECK(plot.x_name == "threads");
   CHECK(plot.y_name == "million collisions per second");
-  CHECK(says(empty_cores_plot(3).caption, "Elastic spheres in"));
+  CHECK(says(cores_plot(3, {}).caption, "Elastic spheres in"));
+  REQUIRE(plot.panels.size() == 2);
+  CHECK(plot.panels[0].title == "N = 100, phi = 0.3");
+  CHECK(plot.panels[1].title == "N = 7000, phi = 0.7");
+  REQUIRE(plot.panels[0].points.size() == 2);
+  CHECK(plot.panels[1].points.size() == 1);
+  const PlotPoint &whole = plot.panels[0].points[0], &tiles = plot.panels[0].points[1];
+  CHECK(whole.x == 0.5);
+  CHECK(whole.y == 2.346);
+  CHECK(whole.label == "2.35");
+  CHECK(tiles.x == 1.0);
+  CHECK(tiles.y == 1.5);
 }
 
 TEST_CASE("Bench: the plot of growth has the rates of each fraction over the number") {
