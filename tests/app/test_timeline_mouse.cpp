@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kEnd = 10.0;  // of the run
 
-// A window with a run that has ended, and a timeline of some 700 pixels.
+// A window with a run that has ended, and a timeline of some 500 pixels.
 class RunWindow {
  public:
   explicit RunWindow(const std::string& changes = "")
