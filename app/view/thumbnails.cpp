@@ -64,7 +64,6 @@ void Thumbnails::draw() {
   Texture texture = generate<Texture>(*gl_, gl_->GenTextures);
   gl_->BindTexture(GL_TEXTURE_2D, texture.id());
   gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, kSize.width, kSize.height, 0, GL_RGBA,
                   GL_UNSIGNED_BYTE, nullptr);
   const Framebuffer framebuffer = generate<Framebuffer>(*gl_, gl_->GenFramebuffers);

@@ -87,6 +87,49 @@ void turn_wheel(OffscreenWindow& window, float steps) {
   window.draw();
 }
 
+// Moves the mouse with the right button down.
+void drag_right(OffscreenWindow& window, float right, float down) {
+  ImGui::GetIO().MouseDown[1] = true;
+  window.draw();
+  ImGui::GetIO().MousePos.x += right;
+  ImGui::GetIO().MousePos.y += down;
+  window.draw();
+  ImGui::GetIO().MouseDown[1] = false;
+  window.draw();
+}
+
+// Advances the gas by a frame.
+void step(OffscreenWindow& window) {
+  ImGui::GetIO().AddInputCharacter('.');
+  window.draw();
+  window.settle();
+}
+
+std::array<float, 4> shifted(const std::array<float, 4>& walls, float right, float down) {
+  return {walls[0] + right, walls[1] + right, walls[2] + down, walls[3] + down};
+}
+
+// Double-clicks a disk. Returns the places of the walls if it is in the middle.
+std::array<float, 4> follow(OffscreenWindow& window, const Scene& scene, int disk) {
+  const std::array<float, 4> walls = walls_in(window);
+  const auto [left, right, top, bottom] = walls;
+  const VecX position = ScheduledRun<2>(scene, 1).snapshot().positions.col(disk);
+  const auto x = static_cast<float>(position.x() / scene.box.x()),
+             y = static_cast<float>(position.y() / scene.box.y());
+  const ImVec2 place(left + x * (right - left), bottom - y * (bottom - top));
+  ImGui::GetIO().MousePos = place;
+  for (int click = 0; click < 2; ++click) {
+    ImGui::GetIO().MouseDown[0] = true;
+    window.draw();
+    ImGui::GetIO().MouseDown[0] = false;
+    window.draw();
+  }
+  window.settle();
+  REQUIRE(testing::says(window.text("particle"), "Disk " + std::to_string(disk)));
+  const auto area = window.place("viewport");
+  return shifted(walls, area[0] + 0.5f * area[2] - place.x, area[1] + 0.5f * area[3] - place.y);
+}
+
 // Places relative to a point of the window, after a zoom about it.
 std::array<float, 4> zoomed(const std::array<float, 4>& walls, ImVec2 about, float factor) {
   const auto [left, right, top, bottom] = walls;
@@ -187,42 +230,29 @@ TEST_CASE("Viewport: the widest view of a small box has 20 diameters") {
 
 TEST_CASE("Viewport: the right button moves the picture with the mouse") {
   OffscreenWindow window(box_of_disks(), 1000.0f, 700.0f);
-  const auto [left, right, top, bottom] = walls_in(window);
+  const std::array<float, 4> whole = walls_in(window);
   window.point_at("viewport", 0.5f, 0.5f);
-  ImGui::GetIO().MouseDown[1] = true;
-  window.draw();
-  ImGui::GetIO().MousePos.x += 40.0f;
-  ImGui::GetIO().MousePos.y -= 25.0f;
-  window.draw();
-  ImGui::GetIO().MouseDown[1] = false;
-  window.draw();
-  check_walls(window, {left + 40.0f, right + 40.0f, top - 25.0f, bottom - 25.0f});
+  drag_right(window, 40.0f, -25.0f);
+  check_walls(window, shifted(whole, 40.0f, -25.0f));
+}
+
+TEST_CASE("Viewport: a double click follows a disk, until the picture is moved") {
+  const Scene scene = box_of_disks();
+  OffscreenWindow window(scene, 1000.0f, 700.0f);
+  const std::array<float, 4> followed = follow(window, scene, 7);
+  check_walls(window, followed);
+  drag_right(window, 40.0f, -25.0f);
+  step(window);
+  check_walls(window, shifted(followed, 40.0f, -25.0f));
 }
 
 TEST_CASE("Viewport: a double click follows a disk, until the whole box is shown again") {
   const Scene scene = box_of_disks();
   OffscreenWindow window(scene, 1000.0f, 700.0f);
   const std::array<float, 4> whole = walls_in(window);
-  const auto [left, right, top, bottom] = whole;
-  const VecX disk = ScheduledRun<2>(scene, 1).snapshot().positions.col(7);
-  const auto x = static_cast<float>(disk.x()) / 16.0f, y = static_cast<float>(disk.y()) / 12.0f;
-  const ImVec2 place(left + x * (right - left), bottom - y * (bottom - top));
-  ImGui::GetIO().MousePos = place;
-  for (int click = 0; click < 2; ++click) {
-    ImGui::GetIO().MouseDown[0] = true;
-    window.draw();
-    ImGui::GetIO().MouseDown[0] = false;
-    window.draw();
-  }
-  window.settle();
-  REQUIRE(testing::says(window.text("particle"), "Disk 7"));
-  const auto area = window.place("viewport");
-  const ImVec2 moved(area[0] + 0.5f * area[2] - place.x, area[1] + 0.5f * area[3] - place.y);
-  check_walls(window, {left + moved.x, right + moved.x, top + moved.y, bottom + moved.y});
+  check_walls(window, follow(window, scene, 7));
   window.press('f');
-  ImGui::GetIO().AddInputCharacter('.');
-  window.draw();
-  window.settle();
+  step(window);
   check_walls(window, whole);
 }
 
