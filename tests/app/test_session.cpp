@@ -85,6 +85,16 @@ std::vector<double> scales(const Session& session) {
   return scales;
 }
 
+// Another future begins at an act at t = 1.5. At its head, t = 2.5, is another act.
+void fork_and_act(SessionDriver& driver) {
+  driver.go_to(2.0);
+  driver.session.jump(1.5);
+  driver.answer();
+  act(driver, {heated(1.5)});
+  driver.go_to(2.5);
+  act(driver, {heated(1.25)});
+}
+
 }  // namespace
 
 TEST_CASE("Session: undo removes the last acts that are alike, and redo brings them back") {
@@ -132,12 +142,7 @@ TEST_CASE("Session: undo finds an act before later changes of laws") {
 TEST_CASE("Session: undo of an act at the head is no part of an earlier fork") {
   SessionDriver driver;
   Session& session = driver.session;
-  driver.go_to(2.0);
-  session.jump(1.5);
-  driver.answer();
-  act(driver, {heated(1.5)});
-  driver.go_to(2.5);
-  act(driver, {heated(1.25)});
+  fork_and_act(driver);
   CHECK(scales(session) == std::vector{1.5, 1.25});
   for (const auto& left : {std::vector{1.5}, std::vector<double>{}}) {
     session.undo();
@@ -149,12 +154,7 @@ TEST_CASE("Session: undo of an act at the head is no part of an earlier fork") {
 TEST_CASE("Session: redo of an act after an earlier fork exchanges the futures") {
   SessionDriver driver;
   Session& session = driver.session;
-  driver.go_to(2.0);
-  session.jump(1.5);
-  driver.answer();
-  act(driver, {heated(1.5)});
-  driver.go_to(2.5);
-  act(driver, {heated(1.25)});
+  fork_and_act(driver);
   driver.go_to(3.0);
   session.undo();
   driver.answer();
