@@ -214,6 +214,10 @@ TEST_CASE("Bench: coarser pictures resemble the best one less" * doctest::test_s
       CHECK(settings[k].at("cpu_seconds_per_picture") > 0.0);
     }
   }
+  std::vector<std::string> sizes;
+  for (const json& setting : dial_of(table, "picture_size")) sizes.push_back(setting.at("setting"));
+  CHECK(sizes ==
+        std::vector<std::string>{"1920x1080", "1280x720", "854x480", "426x240", "214x120"});
 }
 
 TEST_CASE("Bench: the table of features has a rate for each") {

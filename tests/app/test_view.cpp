@@ -4,9 +4,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <regex>
 
+#include "engine/scene/scene_file.h"
 #include "tests/app/gui_driver.h"
+#include "tests/app/offscreen_window.h"
+#include "tests/render/picture.h"
 
 namespace clatter {
 
@@ -20,6 +24,24 @@ TEST_CASE("Window: it is no larger than the screen") {
     return event["name"] == "close_lesson" && event["place"][1] < 720.0;
   })["place"];
   CHECK(place[0].get<double>() + place[2].get<double>() <= 1200.0);
+}
+
+TEST_CASE("Window: its panels have the colours of their picture off screen") {
+  OffscreenWindow window(load_scene("vibrated"), 1280.0f, 800.0f);
+  const Image picture = window.picture();
+  const GuiDriver driver("--until 1", "1280x800");
+  driver.wait_for("status", 0, halted);
+  // A row of pixels through the triangle of the button.
+  const auto [left, top, width, height] = window.place("play");
+  const int y = static_cast<int>(top + 0.4f * height);
+  for (int x = static_cast<int>(left) - 6; x < static_cast<int>(left + width); x += 3) {
+    CAPTURE(x);
+    const Colour expected = pixel(picture, x, y);
+    const std::vector<int> colour = driver.pixel(x, y);
+    CHECK(std::abs(colour[0] - expected.red) <= 2);
+    CHECK(std::abs(colour[1] - expected.green) <= 2);
+    CHECK(std::abs(colour[2] - expected.blue) <= 2);
+  }
 }
 
 TEST_CASE("Window: F11 fills the screen, and restores the window at its place") {
