@@ -256,6 +256,23 @@ TEST_CASE("Viewport: a double click follows a disk, until the whole box is shown
   check_walls(window, whole);
 }
 
+TEST_CASE("Viewport: X, Y and Z look along an axis, and I from a corner") {
+  OffscreenWindow window(gas(VecX(Vec3(5.0, 6.0, 7.0)), 10, 0.9), 1000.0f, 700.0f);
+  struct Direction {
+    char key;
+    double azimuth, elevation;
+  };
+  for (const auto& [key, azimuth, elevation] :
+       {Direction{'y', 0.0, 90.0}, Direction{'x', 90.0, 0.0}, Direction{'z', 0.0, 0.0},
+        Direction{'i', 45.0, 35.264}}) {
+    CAPTURE(key);
+    window.press(key);
+    const auto turn = window.logged("turn");
+    CHECK(turn["azimuth"] == azimuth);
+    CHECK(turn["elevation"].get<double>() == doctest::Approx(elevation).epsilon(1e-4));
+  }
+}
+
 TEST_CASE("Viewport: the cursor over a wall has the direction in which it moves") {
   OffscreenWindow window(box_of_disks(), 1000.0f, 700.0f);
   for (const char* wall : {"left", "right", "bottom", "top"}) {
