@@ -44,9 +44,10 @@ TEST_CASE("Lecture: the sliders of a scene are its restitution and drive") {
 }
 
 TEST_CASE("Lecture: a slider that the scene lacks is named beside the nearest one") {
-  OffscreenWindow window(parse_scene("particles = { count = 5 }\n"
-                                     "view.lecture.sliders = [\"particles.restitutio\"]\n",
-                                     "gas"));
+  OffscreenWindow window(
+      parse_scene("particles = { count = 5 }\n"
+                  "view.lecture.sliders = [\"particles.restitutio\"]\n",
+                  "gas"));
   window.press('l');
   window.settle();
   CHECK(window.logged("message")["text"] ==
