@@ -264,7 +264,7 @@ function on_key(event) {
   }
   wake();
   // The keys of the browser itself keep their meaning: reload, search, new tab.
-  const own = !ctrl || 'zys'.includes(sign || '-');
+  const own = !ctrl || (sign && 'zys'.includes(sign));
   if (code && own && !event.altKey && event.code !== 'F11') event.preventDefault();
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <regex>
@@ -59,13 +58,10 @@ TEST_CASE("Bench: the table of fields has a row for each estimator and one for t
   // Thirty snapshots have less information than complete flights, and all fields cost more than T.
   CHECK(table[1].at("estimator") == "exact, all fields");
   CHECK(table[2].at("estimator") == "exact");
-  for (const auto& [row, name] : std::map<std::size_t, std::string>{{3, "snapshot 0.1"},
-                                                                    {4, "snapshot 0.3"},
-                                                                    {5, "snapshot 1"},
-                                                                    {6, "snapshot 3"},
-                                                                    {7, "snapshot 10"}}) {
-    CHECK(table[row].at("estimator") == name);
-  }
+  std::vector<std::string> snapshots;
+  for (std::size_t row = 3; row < 8; ++row) snapshots.push_back(table[row].at("estimator"));
+  CHECK(snapshots == std::vector<std::string>{"snapshot 0.1", "snapshot 0.3", "snapshot 1",
+                                              "snapshot 3", "snapshot 10"});
   CHECK(table[1].at("variance") == table[2].at("variance"));
   CHECK(table[7].at("variance") > table[2].at("variance"));
   CHECK(table[1].at("cost") > table[2].at("cost"));
