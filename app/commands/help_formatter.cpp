@@ -1,7 +1,5 @@
 #include "app/commands/help_formatter.h"
 
-#include <sstream>
-
 #include "app/commands/command_tree.h"
 #include "app/commands/wrapped_text.h"
 
@@ -21,31 +19,50 @@ std::string about_others(const std::string& what, const std::set<CLI::Option*>& 
   return list.empty() ? "" : " " + what + " " + list + ".";
 }
 
-}  // namespace
-
-HelpFormatter::HelpFormatter() {
-  column_width(kDescriptionColumn);
-  label("SUBCOMMAND", "COMMAND");
+// A name, and its text of one or more lines in a second column.
+std::string in_columns(const std::string& name, const std::string& text) {
+  const std::string indented(kDescriptionColumn, ' ');
+  std::string out = "  " + name;
+  if (out.size() >= kDescriptionColumn) out += '\n';
+  out.append(out.back() == '\n' ? kDescriptionColumn : kDescriptionColumn - out.size(), ' ');
+  for (const char c : text) {
+    out += c;
+    if (c == '\n') out += indented;
+  }
+  return out + '\n';
 }
 
-std::string HelpFormatter::make_description(const CLI::App* app) const {
-  return wrapped(app->get_description(), kTextWidth) + "\n\n";
+}  // namespace
+
+std::string HelpFormatter::make_help(const CLI::App* app, std::string name,
+                                     CLI::AppFormatMode) const {
+  std::string usage = "Usage: " + name, positionals, options;
+  if (!app->get_options().empty()) usage += " [OPTIONS]";
+  for (const CLI::Option* option : app->get_options()) {
+    const bool positional = option->get_positional();
+    if (positional) usage += ' ' + make_option_usage(option);
+    (positional ? positionals : options) +=
+        in_columns(make_option_name(option, positional) + make_option_opts(option),
+                   wrapped(option_help(*option), kDescriptionWidth));
+  }
+  std::string commands;
+  for (const CLI::App* command : app->get_subcommands({})) {
+    if (commands.empty()) commands = '\n' + command->get_group() + ":\n";
+    commands +=
+        in_columns(command->get_name(), wrapped(command_summary(*command), kDescriptionWidth));
+  }
+  if (!commands.empty()) {
+    const bool optional = app->get_require_subcommand_min() == 0;
+    usage += optional ? " [COMMAND]" : " COMMAND";
+  }
+  if (!positionals.empty()) positionals = "\nPositionals:\n" + positionals;
+  return wrapped(app->get_description(), kTextWidth) + "\n\n" + usage + '\n' + positionals +
+         "\nOptions:\n" + options + commands + '\n';
 }
 
 std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
   const std::string label = value_label(*option);
   return label.empty() ? "" : " " + label;
-}
-
-std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
-  return wrapped(option_help(*option), kDescriptionWidth);
-}
-
-std::string HelpFormatter::make_subcommand(const CLI::App* command) const {
-  std::ostringstream out;
-  const std::string summary = wrapped(command_summary(*command), kDescriptionWidth);
-  CLI::detail::format_help(out, command->get_name(), summary, kDescriptionColumn);
-  return out.str();
 }
 
 std::string command_summary(const CLI::App& command) {

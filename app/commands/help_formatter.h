@@ -5,15 +5,13 @@
 
 namespace clatter {
 
-/// The layout of help: a label for each value, then sentences, in lines of limited width.
+/// The layout of help: a label for each value, then sentences, in lines of limited width. It is the
+/// same with all versions of CLI11.
 class HelpFormatter final : public CLI::Formatter {
  public:
-  HelpFormatter();
-
-  std::string make_description(const CLI::App* app) const override;
+  std::string make_help(const CLI::App* app, std::string name,
+                        CLI::AppFormatMode mode) const override;
   std::string make_option_opts(const CLI::Option* option) const override;
-  std::string make_option_desc(const CLI::Option* option) const override;
-  std::string make_subcommand(const CLI::App* command) const override;
 };
 
 /// The first sentence of a command's description.
