@@ -2,7 +2,7 @@
 
 #include <fmt/printf.h>
 #include <imgui.h>
-#include <imgui_internal.h>
+#include <imgui_internal.h>  // TempInputIsActive: only it tells whether a slider is a text field
 
 #include <algorithm>
 #include <cmath>
@@ -65,7 +65,7 @@ static void explain(const Slider& slider, double usual) {
 // Round arrow at the right end of a line. Returns true if it was clicked.
 static bool reset_button() {
   const float size = ImGui::GetFontSize();
-  ImGui::SameLine(ImGui::GetContentRegionMax().x - size);
+  ImGui::SameLine(right_edge() - size);
   const Reach reach(size);
   const bool clicked = ImGui::InvisibleButton("reset", ImVec2(size, size));
   const ImVec2 low = ImGui::GetItemRectMin();
@@ -88,7 +88,7 @@ static bool reset_button() {
 // clicked.
 static bool headline(const Slider& slider, double value) {
   const float gap = ImGui::GetStyle().ItemSpacing.x;
-  const float right = ImGui::GetContentRegionMax().x - 1.4f * ImGui::GetFontSize();
+  const float right = right_edge() - 1.4f * ImGui::GetFontSize();
   std::string text = fmt::sprintf(slider.format, value);
   ImGui::TextUnformatted(slider.name);
   ImGui::SameLine();
@@ -191,9 +191,8 @@ Controls::Moved Controls::draw(const Slider& slider, double& value, double usual
   ImGuiIO& io = ImGui::GetIO();
   const bool ctrl = io.KeyCtrl;
   io.KeyCtrl = ctrl || io.MouseDoubleClicked[0];
-  const ImGuiID id = ImGui::GetID("##value");
-  if (asked) ImGui::GetCurrentContext()->NavActivateInputId = id;
-  const bool typing = ImGui::TempInputIsActive(id);
+  if (asked) ImGui::SetKeyboardFocusHere();
+  const bool typing = ImGui::TempInputIsActive(ImGui::GetID("##value"));
   const float tall = ImGui::GetFrameHeight();
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
                       ImVec2(ImGui::GetStyle().FramePadding.x, typing ? 3.0f : 0.0f));
@@ -341,6 +340,7 @@ bool Controls::choice(const char* key, const char* name, const char* help,
       }
       log_place(std::string(key) + '.' + word);
     }
+    if (std::exchange(closes_list_, false)) ImGui::CloseCurrentPopup();
     ImGui::EndCombo();
   }
   ImGui::PopID();

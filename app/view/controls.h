@@ -77,6 +77,8 @@ class Controls {
   /// changed.
   bool choice(const char* key, const char* name, const char* help,
               const std::vector<std::string>& words, int& chosen, int usual, bool grouped = false);
+  /// Closes the open list of a choice.
+  void close_list() { closes_list_ = true; }
   /// Two text fields for the ends of a range. Returns true if a new pair with ends[0] < ends[1] was
   /// entered.
   bool ends(const char* key, const char* help, std::array<double, 2>& ends);
@@ -134,6 +136,7 @@ class Controls {
   double held_ = 0.0;                 // pending value of the slider that is dragged
   std::string holding_;               // name of that slider; empty: none
   double set_at_ = 0.0;               // time of the last change by a drag, seconds
+  bool closes_list_ = false;          // whether the open list shall close
   std::optional<View> shown_before_;  // view before the current drag
 };
 

@@ -27,6 +27,9 @@ Desktop::Desktop(GLFWwindow* window, WindowInput& input) : window_(window) {
     if (action == GLFW_REPEAT && !repeats(press)) return;
     static_cast<WindowInput*>(glfwGetWindowUserPointer(of))->press(press);
   });
+  glfwSetCharCallback(window, [](GLFWwindow* of, unsigned character) {
+    static_cast<WindowInput*>(glfwGetWindowUserPointer(of))->type(character);
+  });
   glfwSetCursorPosCallback(window, [](GLFWwindow* of, double x, double y) {
     static_cast<WindowInput*>(glfwGetWindowUserPointer(of))->move_mouse(x, y);
   });

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
-#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
@@ -94,12 +93,13 @@ void FilmDialog::open(const FilmedRun& run, const std::string& file) {
 }
 
 void FilmDialog::close() {
-  if (std::exchange(open_, false)) ImGui::ClosePopupToLevel(0, true);
+  open_ = false;
 }
 
 FilmDialog::Action FilmDialog::draw(Controls& controls) {
-  if (!open_) return Action::None;
-  if (!ImGui::IsPopupOpen(kDialog)) ImGui::OpenPopup(kDialog);
+  const bool shown = ImGui::IsPopupOpen(kDialog);
+  if (!open_ && !shown) return Action::None;
+  if (!shown) ImGui::OpenPopup(kDialog);
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
   const float unit = ImGui::GetFontSize();
   ImGui::SetNextWindowPos(ImVec2(0.5f * whole.x, 0.5f * whole.y), 0, ImVec2(0.5f, 0.5f));
@@ -110,17 +110,18 @@ FilmDialog::Action FilmDialog::draw(Controls& controls) {
                                   ImGuiWindowFlags_NoSavedSettings)) {
     return Action::None;
   }
-  choose_times(controls);
-  ImGui::Separator();
-  choose_form(controls);
-  ImGui::Separator();
-  choose_content(controls);
-  ImGui::Separator();
-  const Action action = choose_action(controls);
-  if (action != Action::None) {
-    ImGui::CloseCurrentPopup();
-    open_ = false;
+  Action action = Action::None;
+  if (open_) {
+    choose_times(controls);
+    ImGui::Separator();
+    choose_form(controls);
+    ImGui::Separator();
+    choose_content(controls);
+    ImGui::Separator();
+    action = choose_action(controls);
   }
+  if (action != Action::None) open_ = false;
+  if (!open_) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
   return action;
 }

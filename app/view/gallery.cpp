@@ -1,13 +1,17 @@
 #include "app/view/gallery.h"
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <cctype>
 #include <chrono>
-#include <cstdint>
+#include <utility>
 
+#include "app/view/style.h"
 #include "engine/scene/scene_file.h"
+#include "render/layers/gui_layer.h"
 
 namespace clatter {
 
@@ -35,8 +39,7 @@ bool Gallery::draw_card(const Entry& entry, bool selected, Controls& controls) {
   const std::string try_this = "Try this: " + entry.try_this;
   float height = ImGui::GetTextLineHeightWithSpacing() + 2.0f * edge;
   for (const std::string* text : {&entry.caption, &entry.goal, &try_this}) {
-    height +=
-        ImGui::CalcTextSize(text->c_str(), nullptr, false, ImGui::GetContentRegionMax().x - left).y;
+    height += ImGui::CalcTextSize(text->c_str(), nullptr, false, right_edge() - left).y;
     height += ImGui::GetStyle().ItemSpacing.y;
   }
   height = std::max(height, tall + 2.0f * edge);
@@ -46,8 +49,7 @@ bool Gallery::draw_card(const Entry& entry, bool selected, Controls& controls) {
   const ImVec2 after = ImGui::GetCursorPos();
   if (const GLuint texture = thumbnails_.of(*entry.file)) {
     ImGui::GetWindowDrawList()->AddImageRounded(
-        reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)),
-        ImVec2(corner.x + edge, corner.y + edge),
+        texture_id(texture), ImVec2(corner.x + edge, corner.y + edge),
         ImVec2(corner.x + edge + wide, corner.y + edge + tall), ImVec2(0, 1), ImVec2(1, 0),
         IM_COL32_WHITE, 0.3f * unit);
   }
@@ -65,6 +67,7 @@ bool Gallery::draw_card(const Entry& entry, bool selected, Controls& controls) {
   ImGui::PopTextWrapPos();
   ImGui::EndGroup();
   ImGui::SetCursorPos(after);
+  ImGui::Dummy(ImVec2(0.0f, 0.0f));
   return clicked;
 }
 
@@ -80,13 +83,16 @@ std::vector<const Gallery::Entry*> Gallery::matches() const {
   return found;
 }
 
-// Moves the selection by the arrow keys. Returns true if it moved.
+void Gallery::press(const KeyPress& press) {
+  if (press.key == GLFW_KEY_DOWN) ++steps_;
+  if (press.key == GLFW_KEY_UP) --steps_;
+  if (press.key == GLFW_KEY_ENTER) enters_ = true;
+}
+
+// Moves the selection by the pressed arrow keys. Returns true if it moved.
 bool Gallery::select(int matches) {
-  const auto pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); };
   const int before = selected_;
-  if (pressed(ImGuiKey_DownArrow)) ++selected_;
-  if (pressed(ImGuiKey_UpArrow)) --selected_;
-  selected_ = std::clamp(selected_, 0, std::max(0, matches - 1));
+  selected_ = std::clamp(selected_ + std::exchange(steps_, 0), 0, std::max(0, matches - 1));
   return selected_ != before;
 }
 
@@ -107,12 +113,9 @@ const EmbeddedFile* Gallery::draw(Controls& controls, float width, float height,
     search_ = {};
     selected_ = 0;
   }
-  // The search starts with this key, so that G closes the gallery. Enter keeps it.
-  const ImGuiIO& io = ImGui::GetIO();
-  const bool enter = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter));
-  if (io.WantTextInput ? enter : io.InputQueueCharacters.contains('/')) {
-    ImGui::SetKeyboardFocusHere();
-  }
+  const bool enter = std::exchange(enters_, false);
+  const bool keeps_search = enter && ImGui::GetIO().WantTextInput;
+  if (std::exchange(searches_, false) || keeps_search) ImGui::SetKeyboardFocusHere();
   const float side = ImGui::GetFrameHeight();
   ImGui::SetNextItemWidth(-side - ImGui::GetStyle().ItemSpacing.x);
   if (ImGui::InputTextWithHint("##search", "Search the gallery ( / )", search_.data(),

@@ -6,6 +6,7 @@
 
 #include "app/view/controls.h"
 #include "app/view/thumbnails.h"
+#include "app/view/window_input.h"
 #include "engine/embedded_file.h"
 
 namespace clatter {
@@ -16,8 +17,12 @@ class Gallery {
   /// The renderer draws the pictures of scenes. It must outlive the gallery.
   Gallery(const Gl& gl, Renderer& renderer);
 
-  /// Draws the gallery over a window of `width` x `height`. Arrow keys move the selection, Enter
-  /// chooses. A button sets `open` to false. Returns the chosen scene; null: none.
+  /// Takes a key before the next picture. Arrow keys move the selection, Enter chooses.
+  void press(const KeyPress& press);
+  /// Begins the typing of a searched text in the next picture.
+  void search() { searches_ = true; }
+  /// Draws the gallery over a window of `width` x `height`. A button sets `open` to false. Returns
+  /// the chosen scene; null: none.
   const EmbeddedFile* draw(Controls& controls, float width, float height, bool& open);
   /// Whether the pictures of scenes are being made.
   bool busy() const { return thumbnails_.busy(); }
@@ -38,6 +43,9 @@ class Gallery {
   std::vector<Entry> entries_;
   std::array<char, 64> search_ = {};
   int selected_ = 0;  // index into matches()
+  // Of the keys before the next picture: steps of the selection, Enter, and the key of the search.
+  int steps_ = 0;
+  bool enters_ = false, searches_ = false;
 };
 
 }  // namespace clatter

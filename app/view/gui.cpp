@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/plots/plots.h"
+#include "app/view/gui_keys.h"
 #include "app/view/lesson.h"
 #include "app/view/panels.h"
 #include "app/view/style.h"
@@ -67,21 +68,14 @@ void Gui::begin() {
     text_size_ = size;
     ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
     atlas.Clear();
-    ImGui::GetIO().FontDefault = const_cast<ImFont*>(add_fonts(atlas, size).text);
+    ImGui::GetIO().FontDefault = add_fonts(atlas, size).text.face;
     gui_.upload(atlas);
   }
   constexpr float kTarget = 44.0f;  // points that a finger hits
   const float target = panels_.lecture ? kTarget * host_.content_scale() : 0.0f;
   apply_style(size, std::max(host_.least_target(), target), panel_theme(shown_view()));
   scale_ = std::max(1.0f, ImGui::GetIO().DisplayFramebufferScale.x);
-  // Dear ImGui sees a key that is released before the picture as pressed in it.
-  auto& down = ImGui::GetIO().KeysDown;
-  std::vector<int> released;
-  for (const KeyPress& press : input_.presses()) {
-    if (!std::exchange(down[press.key], true)) released.push_back(press.key);
-  }
-  ImGui::NewFrame();
-  for (const int key : released) down[key] = false;
+  begin_picture(input_.presses());
 }
 
 void Gui::draw() {

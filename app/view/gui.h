@@ -75,9 +75,9 @@ class Gui {
   void answer_question(Answer answer);
   void use_question_key(const KeyPress& press);
   void use_function_key(const KeyPress& press);
-  void use_key(const KeyPress& press);
+  void use_key(const KeyPress& press, const std::string& typed);
   void use_control_key(const KeyPress& press);
-  void use_signs();
+  void use_signs(const std::string& typed);
   bool use_lecture_key(char key);
   void close_something();
   void lecture(bool on);
@@ -180,6 +180,7 @@ class Gui {
   std::size_t at_ = 0;                           // of the scene in the playlist
   MessageNote message_;
   std::function<void()> delayed_;  // action after the question about unsaved changes; empty: none
+  Answer typed_answer_ = Answer::None;            // to this question, by a key
   std::optional<std::string> title_;              // of the window; absent: name of the program
   std::uint64_t drawn_views_ = 0;                 // Session::views() at the last picture
   bool told_gallery_ = false;                     // the script log has the gallery as open

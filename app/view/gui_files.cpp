@@ -50,7 +50,9 @@ bool Gui::may_close() {
 }
 
 void Gui::ask_about_changes() {
-  if (delayed_) answer_question(unsaved_question(controls_, session_.opened().title));
+  if (!delayed_) return;
+  const Answer typed = std::exchange(typed_answer_, Answer::None);
+  answer_question(unsaved_question(controls_, session_.opened().title, typed));
 }
 
 void Gui::answer_question(Answer answer) {

@@ -1,7 +1,6 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <imgui.h>
-#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,14 +14,9 @@
 
 namespace clatter {
 
-// Whether a sign is typed before the next picture.
-static bool types(char sign) {
-  const auto& typed = ImGui::GetIO().InputQueueCharacters;
-  return std::find(typed.begin(), typed.end(), static_cast<ImWchar>(sign)) != typed.end();
-}
-
 void Gui::use_keys() {
   for (const std::string& file : input_.take_dropped()) open_file(file);
+  const std::string typed = input_.take_typed();
   for (const KeyPress& press : input_.take_presses()) {
     if (delayed_) {
       use_question_key(press);
@@ -32,16 +26,16 @@ void Gui::use_keys() {
       if (press.key == GLFW_KEY_ESCAPE) film_dialog_.close();
       continue;
     }
+    if (panels_.gallery) gallery_.press(press);
     use_function_key(press);
-    if (!ImGui::GetIO().WantTextInput) use_key(press);
+    if (!ImGui::GetIO().WantTextInput) use_key(press, typed);
   }
-  if (!ImGui::GetIO().WantTextInput && !delayed_ && !film_dialog_.is_open()) use_signs();
+  if (!ImGui::GetIO().WantTextInput && !delayed_ && !film_dialog_.is_open()) use_signs(typed);
 }
 
 void Gui::use_question_key(const KeyPress& press) {
-  if (press.key != GLFW_KEY_ESCAPE && press.key != GLFW_KEY_ENTER) return;
-  ImGui::ClosePopupToLevel(0, true);
-  answer_question(press.key == GLFW_KEY_ENTER ? Answer::Save : Answer::Cancel);
+  if (press.key == GLFW_KEY_ENTER) typed_answer_ = Answer::Save;
+  if (press.key == GLFW_KEY_ESCAPE) typed_answer_ = Answer::Cancel;
 }
 
 void Gui::use_function_key(const KeyPress& press) {
@@ -59,7 +53,8 @@ void Gui::use_function_key(const KeyPress& press) {
   }
 }
 
-void Gui::use_key(const KeyPress& press) {
+// `typed` are all signs that are typed before the next picture.
+void Gui::use_key(const KeyPress& press, const std::string& typed) {
   if (press.ctrl) return use_control_key(press);
   // An embedded gas has no other parts.
   const bool opens = press.key == GLFW_KEY_TAB ||
@@ -88,7 +83,7 @@ void Gui::use_key(const KeyPress& press) {
     case '.':
     case ',':
       // In some layouts Shift and this key type the other sign.
-      if (!press.shift || types(',') || types('.')) return;
+      if (!press.shift || typed.find_first_of(",.") != std::string::npos) return;
       return press.sign == '.' ? session_.step_collision() : session_.step_collision_back();
     case 'b':
       return session_.frame().backwards ? session_.play(true) : session_.play_backwards();
@@ -159,12 +154,14 @@ void Gui::use_control_key(const KeyPress& press) {
 }
 
 // Signs are read as characters, because their keys differ between keyboard layouts.
-void Gui::use_signs() {
-  for (const ImWchar sign : ImGui::GetIO().InputQueueCharacters) {
+void Gui::use_signs(const std::string& typed) {
+  for (const char sign : typed) {
     if (sign == '+' || sign == '=') session_.change_speed(true);
     if (sign == '-') session_.change_speed(false);
     if (sign == '.' && !panels_.gallery) session_.step_frame();
     if (sign == ',' && !panels_.gallery) session_.step_frame_back();
+    // Not every letter begins the search, so that G closes the gallery.
+    if (sign == '/' && panels_.gallery) gallery_.search();
     if (sign == '[') step_scene(-1);
     if (sign == ']') step_scene(1);
     const auto tool = static_cast<std::size_t>(sign) - '1';
@@ -175,7 +172,7 @@ void Gui::use_signs() {
 }
 
 void Gui::close_something() {
-  if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return ImGui::ClosePopupToLevel(0, true);
+  if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return controls_.close_list();
   if (session_.frame().opening && session_.frame().run > 0) return session_.cancel_open();
   // Dear ImGui ends the typing of a number.
   if (ImGui::GetIO().WantTextInput && !panels_.gallery) return;

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include "app/view/controls.h"
+#include "app/view/style.h"
 #include "engine/scene/text.h"
 #include "render/layers/fonts.h"
 
@@ -28,14 +29,12 @@ static void legend(const LivePlot& plot, const PlotStyle& style) {
 
 void draw_plot(const LivePlot& plot, float height) {
   const float unit = ImGui::GetFontSize();
-  const PlotStyle style{.font = ImGui::GetFont(),
-                        .text = unit,
-                        .number_font = ImGui::GetFont(),
-                        .numbers = 0.8f * unit,
+  const PlotStyle style{.text = {ImGui::GetFont(), unit},
+                        .numbers = {ImGui::GetFont(), 0.8f * unit},
                         .ink = ImGui::GetColorU32(ImGuiCol_Text),
                         .faint = ImGui::GetColorU32(ImGuiCol_TextDisabled),
                         .line = ImGui::GetColorU32(ImGuiCol_Border)};
-  const float button = ImGui::GetContentRegionMax().x - ImGui::CalcTextSize("CSV").x - unit;
+  const float button = right_edge() - ImGui::CalcTextSize("CSV").x - unit;
   ImGui::PushTextWrapPos(button);
   ImGui::TextUnformatted(plot.title.c_str());
   ImGui::PopTextWrapPos();

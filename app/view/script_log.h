@@ -2,11 +2,11 @@
 
 #include <array>
 #include <chrono>
-#include <cstdio>
 #include <map>
-#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+
+#include "engine/system/read_file.h"
 
 namespace clatter {
 
@@ -25,11 +25,7 @@ class ScriptLog {
   bool on() const { return file_ != nullptr; }
 
  private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-
-  std::unique_ptr<std::FILE, Close> file_;
+  CStream file_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   std::map<std::string, std::array<float, 4>> widgets_;
 };

@@ -13,6 +13,11 @@ void apply_style(float text_size, float least_target, const ThemeColours& theme)
 /// The colours of the view's theme, without the background colour of the view.
 ThemeColours panel_theme(View view);
 
+/// The right end of the lines of the current window, from its left edge.
+inline float right_edge() {
+  return ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
+}
+
 /// Flags of panels at a fixed position.
 inline constexpr ImGuiWindowFlags kFixedPanel =
     ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |

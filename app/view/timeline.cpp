@@ -1,6 +1,6 @@
 #include "app/view/timeline.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <imgui.h>
 
 #include <algorithm>

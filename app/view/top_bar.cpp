@@ -29,7 +29,7 @@ bool sign_button(Controls& controls, const char* key, const char* sign, const ch
 void speed_field(Session& session, Controls& controls) {
   constexpr float kWide = 75.0f;  // width of a window with room for the whole unit, text sizes
   const float unit = ImGui::GetFontSize();
-  const bool wide = ImGui::GetContentRegionMax().x > kWide * unit;
+  const bool wide = right_edge() > kWide * unit;
   if (sign_button(controls, "slower", "−", "Slower ( - )")) session.change_speed(false);
   if (controls.shows("speed")) {
     const std::string text =
@@ -77,7 +77,7 @@ std::string rate_text(double rate) {
 // far as there is room.
 void figures(const Frame& frame, Controls& controls, const std::string& hint) {
   const float unit = ImGui::GetFontSize();
-  const float right = ImGui::GetContentRegionMax().x - 1.4f * unit;
+  const float right = right_edge() - 1.4f * unit;
   const float room = right - ImGui::GetCursorPosX();
   const auto width = [](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; };
   std::string text;
@@ -158,7 +158,7 @@ void play_row(Session& session, Controls& controls) {
 BarButton top_bar(Session& session, Controls& controls, PanelVisibility& shown, bool has_sound) {
   if (shown.narrow) {
     const float icon = 1.35f * ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x;
-    gallery_button(session, controls, shown, ImGui::GetContentRegionMax().x - 3.0f * icon);
+    gallery_button(session, controls, shown, right_edge() - 3.0f * icon);
     play_button(session, controls);
     reset_button(session, controls);
     figures(session.frame(), controls, "");
@@ -166,8 +166,7 @@ BarButton top_bar(Session& session, Controls& controls, PanelVisibility& shown, 
   }
   BarButton pressed = BarButton::None;
   constexpr float kOthers = 40.0f;  // width of the other widgets and the light, text sizes
-  gallery_button(session, controls, shown,
-                 ImGui::GetContentRegionMax().x - kOthers * ImGui::GetFontSize());
+  gallery_button(session, controls, shown, right_edge() - kOthers * ImGui::GetFontSize());
   play_button(session, controls);
   step_buttons(session, controls);
   reset_button(session, controls);

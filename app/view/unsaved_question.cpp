@@ -8,7 +8,7 @@
 
 namespace clatter {
 
-Answer unsaved_question(Controls& controls, const std::string& title) {
+Answer unsaved_question(Controls& controls, const std::string& title, Answer typed) {
   constexpr const char* kName = "unsaved";
   constexpr struct {
     const char* key;
@@ -22,7 +22,7 @@ Answer unsaved_question(Controls& controls, const std::string& title) {
   if (!ImGui::IsPopupOpen(kName)) ImGui::OpenPopup(kName);
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos(ImVec2(0.5f * whole.x, 0.5f * whole.y), 0, ImVec2(0.5f, 0.5f));
-  Answer answer = Answer::None;
+  Answer answer = typed;
   if (!ImGui::BeginPopupModal(kName, nullptr,
                               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_AlwaysAutoResize |
                                   ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings)) {

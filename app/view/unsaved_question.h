@@ -10,7 +10,8 @@ namespace clatter {
 enum class Answer { None, Save, Discard, Cancel };
 
 /// Draws the question whether to save the changes of the scene with this title, in the middle of
-/// the window. It blocks all other widgets. Returns the answer.
-Answer unsaved_question(Controls& controls, const std::string& title);
+/// the window. It blocks all other widgets. Returns the answer: that of a button, or the one that
+/// was `typed`.
+Answer unsaved_question(Controls& controls, const std::string& title, Answer typed);
 
 }  // namespace clatter

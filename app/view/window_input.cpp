@@ -8,8 +8,15 @@
 namespace clatter {
 
 bool repeats(const KeyPress& press) {
-  return press.key == GLFW_KEY_LEFT || press.key == GLFW_KEY_RIGHT || press.sign == ',' ||
-         press.sign == '.';
+  switch (press.key) {
+    case GLFW_KEY_LEFT:
+    case GLFW_KEY_RIGHT:
+    case GLFW_KEY_UP:
+    case GLFW_KEY_DOWN:
+      return true;
+    default:
+      return press.sign == ',' || press.sign == '.';
+  }
 }
 
 std::optional<std::array<float, 2>> WindowInput::take_mouse_press() {
@@ -18,6 +25,10 @@ std::optional<std::array<float, 2>> WindowInput::take_mouse_press() {
 
 std::vector<KeyPress> WindowInput::take_presses() {
   return std::exchange(presses_, {});
+}
+
+std::string WindowInput::take_typed() {
+  return std::exchange(typed_, {});
 }
 
 std::vector<std::string> WindowInput::take_dropped() {

@@ -16,16 +16,20 @@ struct KeyPress {
   bool ctrl = false;
 };
 
-/// Whether a key presses again while it is held down: the keys that step in time.
+/// Whether a key presses again while it is held down: keys that step in time or in a list.
 bool repeats(const KeyPress& press);
 
-/// Key presses, presses of the mouse and dropped files of a window. Dear ImGui samples keys and
-/// mouse once per frame, and so misses a key that was released before, and the place of a press
-/// from which the mouse has moved on.
+/// Key presses, typed signs, presses of the mouse and dropped files of a window, none of which is
+/// lost between two pictures. Dear ImGui 1.86 samples keys and mouse once per picture. Later
+/// versions spread them over several pictures.
 class WindowInput {
  public:
   /// Adds a key press.
   void press(const KeyPress& press) { presses_.push_back(press); }
+  /// Adds a typed character by its code point. Only signs of ASCII are shortcuts.
+  void type(unsigned character) {
+    if (character < 0x80) typed_ += static_cast<char>(character);
+  }
   /// Adds a dropped file.
   void drop(const std::string& path) { dropped_.push_back(path); }
   /// Notes the place of the mouse, window units from the upper left corner.
@@ -40,11 +44,14 @@ class WindowInput {
   const std::vector<KeyPress>& presses() const { return presses_; }
   /// The keys pressed since the last call, in order.
   std::vector<KeyPress> take_presses();
+  /// The signs of ASCII typed since the last call, in order.
+  std::string take_typed();
   /// The files dropped since the last call.
   std::vector<std::string> take_dropped();
 
  private:
   std::vector<KeyPress> presses_;
+  std::string typed_;
   std::vector<std::string> dropped_;
   std::optional<std::array<float, 2>> mouse_;  // absent: not yet over the window
   std::optional<std::array<float, 2>> mouse_press_;

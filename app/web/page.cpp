@@ -1,7 +1,5 @@
 // The functions that page.js calls. One page has one window. Lengths are pixels of the device.
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
 #include <emscripten.h>
 #include <imgui.h>
 
@@ -17,6 +15,7 @@
 #include <vector>
 
 #include "app/view/gui.h"
+#include "app/view/gui_keys.h"
 #include "app/view/link.h"
 #include "app/web/page_host.h"
 #include "engine/error.h"
@@ -26,34 +25,6 @@
 namespace clatter {
 
 namespace {
-
-// Dear ImGui numbers keys by this table.
-void map_keys(ImGuiIO& io) {
-  constexpr struct {
-    ImGuiKey_ own;
-    int key;
-  } kKeys[] = {{ImGuiKey_Tab, GLFW_KEY_TAB},
-               {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
-               {ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
-               {ImGuiKey_UpArrow, GLFW_KEY_UP},
-               {ImGuiKey_DownArrow, GLFW_KEY_DOWN},
-               {ImGuiKey_PageUp, GLFW_KEY_PAGE_UP},
-               {ImGuiKey_PageDown, GLFW_KEY_PAGE_DOWN},
-               {ImGuiKey_Home, GLFW_KEY_HOME},
-               {ImGuiKey_End, GLFW_KEY_END},
-               {ImGuiKey_Delete, GLFW_KEY_DELETE},
-               {ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
-               {ImGuiKey_Space, GLFW_KEY_SPACE},
-               {ImGuiKey_Enter, GLFW_KEY_ENTER},
-               {ImGuiKey_Escape, GLFW_KEY_ESCAPE},
-               {ImGuiKey_A, GLFW_KEY_A},
-               {ImGuiKey_C, GLFW_KEY_C},
-               {ImGuiKey_V, GLFW_KEY_V},
-               {ImGuiKey_X, GLFW_KEY_X},
-               {ImGuiKey_Y, GLFW_KEY_Y},
-               {ImGuiKey_Z, GLFW_KEY_Z}};
-  for (const auto& [own, key] : kKeys) io.KeyMap[own] = key;
-}
 
 // Events of the pointer that no picture has shown yet. A change of the buttons has a picture of its
 // own, so that a press has its place, and a drag between two pictures is a drag.
@@ -97,7 +68,7 @@ class Page {
   explicit Page(bool logs) : log_(logs ? "/dev/stdout" : "") {
     ImGuiIO& io = ImGui::GetIO();
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
-    map_keys(io);
+    prepare_keys();
     io.ClipboardUserData = &host_;
     io.SetClipboardTextFn = [](void* host, const char* text) {
       static_cast<PageHost*>(host)->copy(text);
@@ -154,16 +125,15 @@ class Page {
   }
 
   void use_key(const KeyPress& press, bool down, bool repeated) {
-    ImGuiIO& io = ImGui::GetIO();
-    io.KeysDown[press.key] = down;
-    io.KeyShift = press.shift;
-    io.KeyCtrl = press.ctrl;
+    pass_modifiers(press.shift, press.ctrl);
+    pass_key(press.key, down);
     if (down && (!repeated || repeats(press))) input_.press(press);
     settle();
   }
 
   void type(const char* text) {
     ImGui::GetIO().AddInputCharactersUTF8(text);
+    for (; *text; ++text) input_.type(static_cast<unsigned char>(*text));
     settle();
   }
 

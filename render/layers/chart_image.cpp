@@ -17,8 +17,9 @@ ImVec2 packed(const Vec2& place) {
 
 class ImagePen final : public ChartPen {
  public:
-  // The fonts of the atlas are in the order of their sizes in pixels per em.
-  ImagePen(ImDrawList& list, const ImFontAtlas& fonts, std::array<double, kChartLetterSizes> sizes)
+  // The fonts are in the order of their sizes in pixels per em.
+  ImagePen(ImDrawList& list, const std::vector<Font>& fonts,
+           std::array<double, kChartLetterSizes> sizes)
       : list_(list), fonts_(fonts), sizes_(sizes) {}
 
   void line(std::span<const Vec2> path, const ChartStroke& stroke) override {
@@ -66,7 +67,7 @@ class ImagePen final : public ChartPen {
 
   void text(Vec2 place, const std::string& text, const ChartLettering& lettering) override {
     const auto size = std::ranges::find(sizes_, lettering.size) - sizes_.begin();
-    const ImFont& font = *fonts_.Fonts[static_cast<int>(size)];
+    const Font& font = fonts_[static_cast<std::size_t>(size)];
     const double width = text_extent(font, text).x;
     const double before = lettering.align == TextAlign::Left     ? 0.0
                           : lettering.align == TextAlign::Middle ? 0.5 * width
@@ -75,10 +76,10 @@ class ImagePen final : public ChartPen {
     place = place.array().round();  // letters are sharp at whole pixels
     const int first = list_.VtxBuffer.Size;
     constexpr float kEverywhere = 1e6f;
-    font.RenderText(&list_, font.FontSize, packed(place - Vec2(0.0, font.Ascent)),
-                    clatter::packed(kChartInk),
-                    ImVec4(-kEverywhere, -kEverywhere, kEverywhere, kEverywhere), text.data(),
-                    text.data() + text.size());
+    font.face->RenderText(&list_, font.size, packed(place - Vec2(0.0, font.ascent())),
+                          clatter::packed(kChartInk),
+                          ImVec4(-kEverywhere, -kEverywhere, kEverywhere, kEverywhere), text.data(),
+                          text.data() + text.size());
     if (!lettering.upwards) return;
     for (int k = first; k < list_.VtxBuffer.Size; ++k) {
       ImVec2& corner = list_.VtxBuffer[k].pos;
@@ -96,7 +97,7 @@ class ImagePen final : public ChartPen {
   }
 
   ImDrawList& list_;
-  const ImFontAtlas& fonts_;
+  const std::vector<Font>& fonts_;
   std::array<double, kChartLetterSizes> sizes_;
 };
 
@@ -104,10 +105,11 @@ class ImagePen final : public ChartPen {
 
 Image chart_image(const Gl& gl, const Chart& chart, Size size) {
   const auto sizes = chart_letter_sizes(size);
+  std::vector<Font> fonts;
   return gui_picture(
       gl, size, kChartPaper,
-      [&](ImFontAtlas& fonts) { add_letters(fonts, chart_letters(chart), sizes); },
-      [&](ImDrawList& list, const ImFontAtlas& fonts) {
+      [&](ImFontAtlas& atlas) { fonts = add_letters(atlas, chart_letters(chart), sizes); },
+      [&](ImDrawList& list) {
         ImagePen pen(list, fonts, sizes);
         draw_chart(chart, size, pen);
       });

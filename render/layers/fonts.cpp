@@ -2,6 +2,7 @@
 
 #include <cfloat>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include "render/gl/embedded_files.h"
@@ -10,68 +11,96 @@ namespace clatter {
 
 namespace {
 
+// Lengths of DejaVu Sans in its own unit. Dear ImGui counts sizes from the ascent to the descent.
+constexpr float kEm = 2048.0f, kAscent = 1901.0f, kHeight = 2384.0f;
+
 // Latin, Greek, Cyrillic, punctuation, sub- and superscripts, arrows, mathematics.
 constexpr ImWchar kGlyphs[] = {0x0020, 0x017f, 0x0370, 0x045f, 0x2009, 0x2027, 0x2070, 0x209c,
                                0x2190, 0x2199, 0x2200, 0x226b, 0x27e8, 0x27e9, 0};
 
-}  // namespace
-
-Fonts add_fonts(ImFontAtlas& atlas, float unit, const std::string& title) {
-  const std::string_view file = embedded_fonts().front().bytes;
+// Settings of all sizes. Versions of Dear ImGui have different usual numbers of samples per pixel.
+ImFontConfig sampled() {
   ImFontConfig config;
   config.FontDataOwnedByAtlas = false;
-  for (float size : {std::round(1.5f * unit), unit, std::round(0.85f * unit)}) {
-    // The atlas requires a mutable pointer, but does not change the bytes.
-    atlas.AddFontFromMemoryTTF(const_cast<char*>(file.data()), static_cast<int>(file.size()), size,
-                               &config, kGlyphs);
-  }
-  // All glyphs in a large size would need a very large atlas. The ranges must live until Build().
-  ImFontGlyphRangesBuilder letters;
-  letters.AddText(title.c_str());
-  letters.AddText(" ");
-  ImVector<ImWchar> ranges;
-  letters.BuildRanges(&ranges);
-  atlas.AddFontFromMemoryTTF(const_cast<char*>(file.data()), static_cast<int>(file.size()),
-                             std::round(3.0f * unit), &config, ranges.Data);
-  atlas.Build();
-  return loaded_fonts(atlas);
+  config.OversampleH = 3;
+  config.OversampleV = 1;
+  return config;
 }
 
-void add_letters(ImFontAtlas& atlas, const std::string& text, std::span<const double> sizes) {
-  // Dear ImGui counts sizes from the ascent to the descent, which are 2384 / 2048 em of DejaVu
-  // Sans.
-  constexpr double kLineHeight = 2384.0 / 2048.0;
+// Adds the embedded typeface in one size. The ranges must live until Build().
+Font add_size(ImFontAtlas& atlas, float size, const ImWchar* ranges) {
   const std::string_view file = embedded_fonts().front().bytes;
-  ImFontConfig config;
-  config.FontDataOwnedByAtlas = false;
+  const ImFontConfig config = sampled();
+  // The atlas requires a mutable pointer, but does not change the bytes.
+  return {atlas.AddFontFromMemoryTTF(const_cast<char*>(file.data()), static_cast<int>(file.size()),
+                                     size, &config, ranges),
+          size};
+}
+
+ImVector<ImWchar> ranges_of(const std::string& text) {
   ImFontGlyphRangesBuilder letters;
   letters.AddText(text.data(), text.data() + text.size());
-  letters.AddText("? ");  // the first replaces letters that the typeface lacks
   ImVector<ImWchar> ranges;
   letters.BuildRanges(&ranges);
+  return ranges;
+}
+
+}  // namespace
+
+float Font::ascent() const {
+  return std::floor(kAscent / kHeight * size + 1.0f);
+}
+
+Fonts add_fonts(ImFontAtlas& atlas, float unit, const std::string& title) {
+  Fonts fonts;
+  fonts.title = add_size(atlas, std::round(1.5f * unit), kGlyphs);
+  fonts.text = add_size(atlas, unit, kGlyphs);
+  fonts.small = add_size(atlas, std::round(0.85f * unit), kGlyphs);
+  // All glyphs in a large size would need a very large atlas.
+  const ImVector<ImWchar> letters = ranges_of(title + ' ');
+  fonts.card = add_size(atlas, std::round(3.0f * unit), letters.Data);
+  atlas.Build();
+  return fonts;
+}
+
+std::vector<Font> add_letters(ImFontAtlas& atlas, const std::string& text,
+                              std::span<const double> sizes) {
+  const ImVector<ImWchar> letters = ranges_of(text + "? ");  // ? replaces letters that it lacks
+  std::vector<Font> fonts;
   for (const double size : sizes) {
-    atlas.AddFontFromMemoryTTF(const_cast<char*>(file.data()), static_cast<int>(file.size()),
-                               static_cast<float>(kLineHeight * size), &config, ranges.Data);
+    fonts.push_back(add_size(atlas, static_cast<float>(kHeight / kEm * size), letters.Data));
   }
   atlas.Build();
+  return fonts;
 }
 
-Fonts loaded_fonts(const ImFontAtlas& atlas) {
-  return {atlas.Fonts[3], atlas.Fonts[0], atlas.Fonts[1], atlas.Fonts[2]};
+ImVec2 text_extent(const Font& font, const std::string& text, float wrap) {
+  return font.face->CalcTextSizeA(font.size, FLT_MAX, wrap, text.data(), text.data() + text.size());
 }
 
-ImVec2 text_extent(const ImFont& font, const std::string& text, float wrap) {
-  return font.CalcTextSizeA(font.FontSize, FLT_MAX, wrap, text.data(), text.data() + text.size());
+std::vector<std::string> broken_lines(const std::string& text,
+                                      const std::function<bool(const std::string&)>& fits) {
+  std::vector<std::string> lines;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const std::string longer = lines.empty() ? word : lines.back() + ' ' + word;
+    if (!lines.empty() && fits(longer)) {
+      lines.back() = longer;
+    } else {
+      lines.push_back(word);
+    }
+  }
+  return lines;
 }
 
 ImU32 packed(Colour colour) {
   return IM_COL32(colour.red, colour.green, colour.blue, colour.alpha);
 }
 
-void draw_text(ImDrawList& list, const ImFont& font, ImVec2 place, const Ink& ink,
+void draw_text(ImDrawList& list, const Font& font, ImVec2 place, const Ink& ink,
                const std::string& text, float wrap) {
   auto write = [&](float dx, float dy, ImU32 colour) {
-    list.AddText(&font, font.FontSize, ImVec2(place.x + dx, place.y + dy), colour, text.data(),
+    list.AddText(font.face, font.size, ImVec2(place.x + dx, place.y + dy), colour, text.data(),
                  text.data() + text.size(), wrap);
   };
   // A halo in the background colour keeps the text legible above disks.

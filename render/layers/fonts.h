@@ -2,44 +2,61 @@
 
 #include <imgui.h>
 
+#include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "render/theme.h"
 
 namespace clatter {
 
+/// Letters in one size.
+struct Font {
+  ImFont* face = nullptr;  ///< of an atlas, which owns it
+  float size = 0.0f;       ///< height from the ascent to the descent, pixels
+
+  /// Distance of the baseline from the upper edge of the letters, pixels. Dear ImGui rounds it to
+  /// the next larger whole number.
+  float ascent() const;
+
+  bool operator==(const Font&) const = default;
+};
+
 /// One typeface in the sizes of the overlay.
 struct Fonts {
-  const ImFont* card = nullptr;  ///< contains only the letters of one title
-  const ImFont* title = nullptr;
-  const ImFont* text = nullptr;
-  const ImFont* small = nullptr;
+  Font card;  ///< contains only the letters of one title
+  Font title;
+  Font text;
+  Font small;
 
   /// Unit of the layout: the height of a text line in pixels.
-  float unit() const { return text->FontSize; }
+  float unit() const { return text.size; }
 };
 
 /// Adds the embedded typeface to an empty atlas, with text size `unit` in pixels. The card font
 /// contains the letters of `title`.
 Fonts add_fonts(ImFontAtlas& atlas, float unit, const std::string& title = "");
 
-/// The fonts that add_fonts() added to `atlas`.
-Fonts loaded_fonts(const ImFontAtlas& atlas);
-
 /// Adds the letters of a text in the embedded typeface to an empty atlas, once for each size in
-/// pixels per em, and builds the atlas. The fonts are in the order of the sizes.
-void add_letters(ImFontAtlas& atlas, const std::string& text, std::span<const double> sizes);
+/// pixels per em, and builds the atlas. Returns the fonts in the order of the sizes.
+std::vector<Font> add_letters(ImFontAtlas& atlas, const std::string& text,
+                              std::span<const double> sizes);
 
 /// Size of a text in pixels, with lines broken at `wrap` pixels; 0: not broken.
-ImVec2 text_extent(const ImFont& font, const std::string& text, float wrap = 0.0f);
+ImVec2 text_extent(const Font& font, const std::string& text, float wrap = 0.0f);
+
+/// The lines of a text broken between words. `fits` tells whether a line is short enough. A longer
+/// word has a line of its own.
+std::vector<std::string> broken_lines(const std::string& text,
+                                      const std::function<bool(const std::string&)>& fits);
 
 /// A colour in the format of Dear ImGui.
 ImU32 packed(Colour colour);
 
 /// Draws a text with its upper left corner at `place` and lines broken at `wrap` pixels; 0: not
 /// broken.
-void draw_text(ImDrawList& list, const ImFont& font, ImVec2 place, const Ink& ink,
+void draw_text(ImDrawList& list, const Font& font, ImVec2 place, const Ink& ink,
                const std::string& text, float wrap = 0.0f);
 
 }  // namespace clatter

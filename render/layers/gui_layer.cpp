@@ -1,10 +1,7 @@
 #include "render/layers/gui_layer.h"
 
-#include <imgui.h>
-
-#include <cstddef>
-#include <cstdint>
 #include <utility>
+#include <vector>
 
 namespace clatter {
 
@@ -33,15 +30,20 @@ void GuiLayer::read_from(std::size_t first) const {
 }
 
 void GuiLayer::upload(ImFontAtlas& atlas) {
-  unsigned char* pixels = nullptr;
+  unsigned char* opacities = nullptr;
   int width = 0, height = 0;
-  atlas.GetTexDataAsRGBA32(&pixels, &width, &height);
+  atlas.GetTexDataAsAlpha8(&opacities, &width, &height);
+  // White also between the letters, because the filter mixes the colours of neighbours. Versions
+  // from 1.92 on have black there, which would show as dark fringes.
+  std::vector<unsigned char> pixels(4 * static_cast<std::size_t>(width) * height, 255);
+  for (std::size_t k = 3; k < pixels.size(); k += 4) pixels[k] = opacities[k / 4];
   gl_->ActiveTexture(GL_TEXTURE0);
   gl_->BindTexture(GL_TEXTURE_2D, font_.id());
   gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
-  atlas.SetTexID(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(font_.id())));
+  gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                  pixels.data());
+  atlas.SetTexID(texture_id(font_.id()));
   atlas.ClearTexData();
 }
 
@@ -77,8 +79,7 @@ void GuiLayer::draw_list(const ImDrawList& list, const ImDrawData& data) const {
     // OpenGL counts rows from the lower edge.
     gl_->Scissor(static_cast<GLint>(left), static_cast<GLint>(height - bottom),
                  static_cast<GLsizei>(right - left), static_cast<GLsizei>(bottom - top));
-    gl_->BindTexture(GL_TEXTURE_2D,
-                     static_cast<GLuint>(reinterpret_cast<std::uintptr_t>(command.GetTexID())));
+    gl_->BindTexture(GL_TEXTURE_2D, static_cast<GLuint>((std::uintptr_t)command.GetTexID()));
     if (std::exchange(first, command.VtxOffset) != command.VtxOffset) read_from(first);
     gl_->DrawElements(GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount),
                       sizeof(ImDrawIdx) == 2 ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT,

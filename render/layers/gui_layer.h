@@ -1,14 +1,18 @@
 #pragma once
 
+#include <imgui.h>
+
 #include <cstddef>
+#include <cstdint>
 
 #include "render/gl/shader_program.h"
 
-struct ImDrawData;
-struct ImDrawList;
-struct ImFontAtlas;
-
 namespace clatter {
+
+/// The texture as Dear ImGui identifies it: by a pointer up to version 1.91, then by an integer.
+inline ImTextureID texture_id(GLuint texture) {
+  return (ImTextureID) static_cast<std::uintptr_t>(texture);
+}
 
 /// Renderer for Dear ImGui. The one of Dear ImGui loads the OpenGL library of the system, which is
 /// not the library of an off-screen context.

@@ -10,7 +10,7 @@ namespace clatter {
 
 Image gui_picture(const Gl& gl, Size size, Colour background,
                   const std::function<void(ImFontAtlas&)>& add_fonts,
-                  const std::function<void(ImDrawList&, const ImFontAtlas&)>& draw) {
+                  const std::function<void(ImDrawList&)>& draw) {
   const Canvas canvas(gl, size);
   canvas.bind();
   gl.Viewport(0, 0, size.width, size.height);
@@ -28,7 +28,7 @@ Image gui_picture(const Gl& gl, Size size, Colour background,
   add_fonts(fonts);
   gui.upload(fonts);
   ImGui::NewFrame();
-  draw(*ImGui::GetForegroundDrawList(), fonts);
+  draw(*ImGui::GetForegroundDrawList());
   ImGui::Render();
   gui.draw(*ImGui::GetDrawData());
   return canvas.read();

@@ -11,10 +11,10 @@ struct ImFontAtlas;
 
 namespace clatter {
 
-/// The picture that a function draws by Dear ImGui, with the fonts that another function adds to
-/// the atlas. Throws RunError if OpenGL does not support the size.
+/// The picture that a function draws by Dear ImGui, with the fonts that another function has added
+/// to the atlas before. Throws RunError if OpenGL does not support the size.
 Image gui_picture(const Gl& gl, Size size, Colour background,
                   const std::function<void(ImFontAtlas&)>& add_fonts,
-                  const std::function<void(ImDrawList&, const ImFontAtlas&)>& draw);
+                  const std::function<void(ImDrawList&)>& draw);
 
 }  // namespace clatter

@@ -25,16 +25,16 @@ std::string unit_and_range(const Legend& legend, const char* range) {
 
 void draw_name(ImDrawList& list, const Label& label, const Fonts& fonts, const ThemeColours& theme,
                ImVec2 place) {
-  draw_text(list, *fonts.small, place, theme.ink(), label.name);
-  const ImVec2 subscript(place.x + text_extent(*fonts.small, label.name).x,
+  draw_text(list, fonts.small, place, theme.ink(), label.name);
+  const ImVec2 subscript(place.x + text_extent(fonts.small, label.name).x,
                          place.y + 0.3f * fonts.unit());
-  list.AddText(fonts.small, std::round(0.75f * fonts.small->FontSize), subscript,
+  list.AddText(fonts.small.face, std::round(0.75f * fonts.small.size), subscript,
                packed(theme.text), label.subscript.c_str());
 }
 
 float name_width(const Label& label, const Fonts& fonts) {
-  return text_extent(*fonts.small, label.name).x +
-         0.75f * text_extent(*fonts.small, label.subscript).x;
+  return text_extent(fonts.small, label.name).x +
+         0.75f * text_extent(fonts.small, label.subscript).x;
 }
 
 // One strip per pixel row, so that the colours of the map do not depend on the height of the bar.
@@ -51,14 +51,14 @@ void draw_bar(ImDrawList& list, const ColourScale& scale, Colour frame, ImVec2 l
 
 float bar_width(const Legend& legend, const Fonts& fonts) {
   // The longest range word, so that the layout does not depend on the range.
-  const float unit = text_extent(*fonts.small, unit_and_range(legend, "locked")).x;
+  const float unit = text_extent(fonts.small, unit_and_range(legend, "locked")).x;
   const float ticks =
-      (kBarWidth + 2.0f * kTickLength) * fonts.unit() + text_extent(*fonts.small, "−0.00").x;
+      (kBarWidth + 2.0f * kTickLength) * fonts.unit() + text_extent(fonts.small, "−0.00").x;
   return std::max({name_width(legend.label, fonts), unit, ticks});
 }
 
 float arrow_width(const ArrowLegend& legend, const Fonts& fonts) {
-  const float value = text_extent(*fonts.small, "0.005 " + legend.label.unit).x;
+  const float value = text_extent(fonts.small, "0.005 " + legend.label.unit).x;
   return std::max({name_width(legend.label, fonts), value, kLongestArrow * fonts.unit()});
 }
 
@@ -89,7 +89,7 @@ void draw_legend(ImDrawList& list, const Legend& legend, const Fonts& fonts,
   const float unit = fonts.unit();
   const auto [low, high] = legend_bar(fonts, place, height);
   draw_name(list, legend.label, fonts, theme, place);
-  draw_text(list, *fonts.small, ImVec2(place.x, std::round(place.y + kNameHeight * unit)),
+  draw_text(list, fonts.small, ImVec2(place.x, std::round(place.y + kNameHeight * unit)),
             theme.faint_ink(), unit_and_range(legend, legend.range.c_str()));
   draw_bar(list, legend.scale, theme.static_wall, low, high);
 
@@ -102,15 +102,15 @@ void draw_legend(ImDrawList& list, const Legend& legend, const Fonts& fonts,
     const float y = std::round(high.y - 1.0f - share * (high.y - low.y - 1.0f));
     list.AddRectFilled(ImVec2(high.x, y), ImVec2(high.x + kTickLength * unit, y + 1.0f),
                        packed(theme.faint_text));
-    draw_text(list, *fonts.small,
+    draw_text(list, fonts.small,
               ImVec2(std::round(high.x + 2.0f * kTickLength * unit),
-                     std::round(y - 0.5f * fonts.small->FontSize)),
+                     std::round(y - 0.5f * fonts.small.size)),
               theme.faint_ink(), tick_text(tick, step));
   }
 }
 
 float arrow_legend_height(const Fonts& fonts) {
-  return std::ceil((kArrowHeight + 0.75f) * fonts.unit() + fonts.small->FontSize);
+  return std::ceil((kArrowHeight + 0.75f) * fonts.unit() + fonts.small.size);
 }
 
 void draw_arrow_legend(ImDrawList& list, const ArrowLegend& legend, const Fonts& fonts,
@@ -125,7 +125,7 @@ void draw_arrow_legend(ImDrawList& list, const ArrowLegend& legend, const Fonts&
   list.AddRectFilled(ImVec2(place.x, y - shaft), ImVec2(neck, y + shaft), packed(theme.text));
   list.AddTriangleFilled(ImVec2(neck, y - width), ImVec2(tip, y), ImVec2(neck, y + width),
                          packed(theme.text));
-  draw_text(list, *fonts.small, ImVec2(place.x, std::round(y + 0.6f * unit)), theme.faint_ink(),
+  draw_text(list, fonts.small, ImVec2(place.x, std::round(y + 0.6f * unit)), theme.faint_ink(),
             tick_text(value, value) + " " + legend.label.unit);
 }
 

@@ -51,14 +51,12 @@ struct PlotFrame {
 
 void draw_axes(ImDrawList& list, const PlotFrame& frame, const LivePlot& plot,
                const PlotStyle& style) {
-  const ImFont& font = *style.number_font;
-  const float size = style.numbers;
+  const Font& font = style.numbers;
+  const float size = font.size;
   const ImU32 line = style.line, ink = style.faint;
-  const auto extent = [&](const std::string& text) {
-    return font.CalcTextSizeA(size, FLT_MAX, 0.0f, text.c_str());
-  };
+  const auto extent = [&](const std::string& text) { return text_extent(font, text); };
   const auto write = [&](ImVec2 at, const std::string& text) {
-    list.AddText(&font, size, at, ink, text.c_str());
+    list.AddText(font.face, size, at, ink, text.c_str());
   };
   for (const Tick& tick : ticks_of(frame.y, 4)) {
     const float y = frame.high.y - static_cast<float>(tick.share) * (frame.high.y - frame.low.y);
@@ -177,12 +175,12 @@ std::array<PlotScale, 2> scales_of(const LivePlot& plot) {
 }
 
 std::vector<LegendEntry> legend_of(const LivePlot& plot, float width, const PlotStyle& style) {
-  const float unit = style.text, line = 1.25f * unit;
+  const float unit = style.text.size, line = 1.25f * unit;
   std::vector<LegendEntry> entries;
   ImVec2 at(0.0f, 0.0f);
   for (const Curve& curve : plot.curves) {
     if (curve.name.empty()) continue;
-    const float name = style.font->CalcTextSizeA(style.text, FLT_MAX, 0.0f, curve.name.c_str()).x;
+    const float name = text_extent(style.text, curve.name).x;
     const float right = at.x + unit + name;
     if (at.x > 0.0f && right > width) at = ImVec2(0.0f, at.y + line);
     entries.push_back({&curve, at, ImVec2(at.x + unit + name, at.y + line)});
@@ -193,7 +191,7 @@ std::vector<LegendEntry> legend_of(const LivePlot& plot, float width, const Plot
 
 void draw_entry(ImDrawList& list, const LegendEntry& entry, ImVec2 corner, const PlotStyle& style) {
   const Curve& curve = *entry.curve;
-  const float unit = style.text;
+  const float unit = style.text.size;
   const ImVec2 at(corner.x + entry.low.x, corner.y + entry.low.y);
   const float y = at.y + 0.55f * unit, width = std::max(1.0f, 0.12f * unit);
   const ImU32 ink = packed(curve.colour);
@@ -205,12 +203,12 @@ void draw_entry(ImDrawList& list, const LegendEntry& entry, ImVec2 corner, const
   } else {
     list.AddLine(ImVec2(at.x, y), ImVec2(at.x + 0.75f * unit, y), ink, width);
   }
-  list.AddText(style.font, style.text, ImVec2(at.x + unit, at.y), style.faint, curve.name.c_str());
+  list.AddText(style.text.face, unit, ImVec2(at.x + unit, at.y), style.faint, curve.name.c_str());
 }
 
 void draw_axes_and_curves(ImDrawList& list, const LivePlot& plot, ImVec2 low, ImVec2 high,
                           const PlotStyle& style) {
-  const float unit = style.text;
+  const float unit = style.text.size;
   const auto [x, y] = scales_of(plot);
   const PlotFrame frame{ImVec2(low.x + 3.0f * unit, low.y + 0.4f * unit),
                         ImVec2(high.x - 0.5f * unit, high.y - 2.1f * unit), x, y};

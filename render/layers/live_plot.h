@@ -1,12 +1,11 @@
 #pragma once
 
-#include <imgui.h>
-
 #include <array>
 #include <string>
 #include <vector>
 
 #include "engine/vec.h"
+#include "render/layers/fonts.h"
 #include "render/palette.h"
 
 namespace clatter {
@@ -55,13 +54,11 @@ std::array<PlotScale, 2> scales_of(const LivePlot& plot);
 
 /// Letters and colours of plots.
 struct PlotStyle {
-  const ImFont* font;         ///< of title and legend
-  float text;                 ///< its size, pixels
-  const ImFont* number_font;  ///< of the axes
-  float numbers;              ///< its size, pixels
-  ImU32 ink;                  ///< colour of the title
-  ImU32 faint;                ///< colour of numbers and names
-  ImU32 line;                 ///< colour of grid lines
+  Font text;     ///< of title and legend
+  Font numbers;  ///< of the axes
+  ImU32 ink;     ///< colour of the title
+  ImU32 faint;   ///< colour of numbers and names
+  ImU32 line;    ///< colour of grid lines
 };
 
 /// The name of a curve in the legend of a plot, with a sample of its line.

@@ -17,21 +17,21 @@ constexpr float kLineHeight = 1.3f;
 // Collects words into lines.
 class LineBreaker {
  public:
-  LineBreaker(const ImFont& font, const ImFont& script, float wrap)
+  LineBreaker(const Font& font, const Font& script, float wrap)
       : font_(font), script_(script), wrap_(wrap) {}
 
   // Adds letters without blanks to the current word.
   void add(const std::string& letters, TextRun::Script script) {
     if (letters.empty()) return;
-    const ImFont& font = script == TextRun::Base ? font_ : script_;
+    const Font& font = script == TextRun::Base ? font_ : script_;
     // A subscript and a superscript beside each other share their place.
     const bool shares = script != TextRun::Base && last_ != TextRun::Base && last_ != script;
     const float start = shares ? script_start_ : word_width_;
-    const float baseline = 0.5f * (kLineHeight - 1.0f) * font_.FontSize + font_.Ascent +
-                           font_.FontSize * (script == TextRun::Below   ? kLowered
-                                             : script == TextRun::Above ? -kRaised
-                                                                        : 0.0f);
-    word_.push_back({letters, &font, ImVec2(start, std::round(baseline - font.Ascent))});
+    const float baseline = 0.5f * (kLineHeight - 1.0f) * font_.size + font_.ascent() +
+                           font_.size * (script == TextRun::Below   ? kLowered
+                                         : script == TextRun::Above ? -kRaised
+                                                                    : 0.0f);
+    word_.push_back({letters, font, ImVec2(start, std::round(baseline - font.ascent()))});
     script_start_ = start;
     last_ = shares ? TextRun::Base : script;
     word_width_ = std::max(word_width_, start + std::ceil(text_extent(font, letters).x));
@@ -70,11 +70,11 @@ class LineBreaker {
 
  private:
   MarkedLine empty_line() const {
-    return {.pieces = {}, .width = 0.0f, .height = std::round(kLineHeight * font_.FontSize)};
+    return {.pieces = {}, .width = 0.0f, .height = std::round(kLineHeight * font_.size)};
   }
 
-  const ImFont& font_;
-  const ImFont& script_;
+  const Font& font_;
+  const Font& script_;
   float wrap_;
   std::vector<MarkedLine> lines_ = {empty_line()};
   float blanks_ = 0.0f;  // width of the blanks at the end of the last line
@@ -86,8 +86,8 @@ class LineBreaker {
 
 }  // namespace
 
-std::vector<MarkedLine> marked_lines(const std::string& text, const ImFont& font,
-                                     const ImFont& script, float wrap) {
+std::vector<MarkedLine> marked_lines(const std::string& text, const Font& font, const Font& script,
+                                     float wrap) {
   LineBreaker breaker(font, script, wrap);
   for (const TextRun& run : marked_text(text).runs) {
     std::size_t from = 0;
@@ -111,7 +111,7 @@ std::vector<MarkedLine> marked_lines(const std::string& text, const ImFont& font
 
 void draw_marked(ImDrawList& list, const MarkedLine& line, ImVec2 place, const Ink& ink) {
   for (const MarkedLine::Piece& piece : line.pieces) {
-    draw_text(list, *piece.font, ImVec2(place.x + piece.place.x, place.y + piece.place.y), ink,
+    draw_text(list, piece.font, ImVec2(place.x + piece.place.x, place.y + piece.place.y), ink,
               piece.letters);
   }
 }

@@ -12,7 +12,7 @@ struct MarkedLine {
   /// Letters of one font, with their upper left corner relative to that of the line, in pixels.
   struct Piece {
     std::string letters;
-    const ImFont* font = nullptr;
+    Font font;
     ImVec2 place = {};
   };
   std::vector<Piece> pieces;
@@ -22,8 +22,8 @@ struct MarkedLine {
 
 /// Lays out a text, see marked_text(), with the script in a smaller font. Lines end at line breaks,
 /// and between words where they would become longer than `wrap` pixels.
-std::vector<MarkedLine> marked_lines(const std::string& text, const ImFont& font,
-                                     const ImFont& script, float wrap);
+std::vector<MarkedLine> marked_lines(const std::string& text, const Font& font, const Font& script,
+                                     float wrap);
 
 /// Draws a line with its upper left corner at `place`.
 void draw_marked(ImDrawList& list, const MarkedLine& line, ImVec2 place, const Ink& ink);

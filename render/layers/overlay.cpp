@@ -78,15 +78,15 @@ Page arrange(Arrangement arrangement, const Fonts& fonts, const ThemeColours& th
             {},          edge,  edge,  column ? kColumn * unit : size.width - 2 * edge};
   float end = page.caption = edge;
   if (!text.title.empty()) {
-    float height = text_extent(*fonts.title, text.title, page.wrap).y;
+    float height = text_extent(fonts.title, text.title, page.wrap).y;
     for (const std::string& title : text.beside) {
-      height = std::max(height, text_extent(*fonts.title, title, page.wrap).y);
+      height = std::max(height, text_extent(fonts.title, title, page.wrap).y);
     }
     end += height;
     page.caption = end + std::round(0.35f * unit);
   }
   if (!text.caption.empty()) {
-    end = page.caption + text_extent(*fonts.text, text.caption, page.wrap).y;
+    end = page.caption + text_extent(fonts.text, text.caption, page.wrap).y;
   }
 
   page.heading = end > edge ? end : 0.0f;
@@ -159,16 +159,16 @@ void draw_plate(ImDrawList& list, ImVec2 low, ImVec2 high, const Page& page, dou
 }
 
 void draw_heading(ImDrawList& list, const OverlayText& text, const Page& page) {
-  const ImVec2 title = text_extent(*page.fonts.title, text.title, page.wrap);
-  const ImVec2 caption = text_extent(*page.fonts.text, text.caption, page.wrap);
+  const ImVec2 title = text_extent(page.fonts.title, text.title, page.wrap);
+  const ImVec2 caption = text_extent(page.fonts.text, text.caption, page.wrap);
   if (!text.title.empty() || !text.caption.empty()) {
     const float end = text.caption.empty() ? page.edge + title.y : page.caption + caption.y;
     draw_plate(list, ImVec2(page.left, page.edge),
                ImVec2(page.left + std::max(title.x, caption.x), end), page);
   }
-  draw_text(list, *page.fonts.title, ImVec2(page.left, page.edge), page.theme.ink(), text.title,
+  draw_text(list, page.fonts.title, ImVec2(page.left, page.edge), page.theme.ink(), text.title,
             page.wrap);
-  draw_text(list, *page.fonts.text, ImVec2(page.left, page.caption), page.theme.faint_ink(),
+  draw_text(list, page.fonts.text, ImVec2(page.left, page.caption), page.theme.faint_ink(),
             text.caption, page.wrap);
 }
 
@@ -181,14 +181,14 @@ void draw_scale_bar(ImDrawList& list, ImVec2 place, double length, float pixels,
   const float cap = std::round(0.3f * fonts.unit()), right = std::round(place.x + pixels);
   const ImU32 colour = packed(theme.faint_text);
   const std::string label = formatted("%g a", length);
-  const ImVec2 extent = text_extent(*fonts.small, label);
+  const ImVec2 extent = text_extent(fonts.small, label);
   const float left = std::max(place.x, std::round(0.5f * (place.x + right - extent.x)));
   draw_plate(list, ImVec2(place.x, place.y - cap - extent.y),
              ImVec2(std::max(right, left + extent.x), place.y), page);
   list.AddRectFilled(ImVec2(place.x, place.y - line), ImVec2(right, place.y), colour);
   list.AddRectFilled(ImVec2(place.x, place.y - cap), ImVec2(place.x + line, place.y), colour);
   list.AddRectFilled(ImVec2(right - line, place.y - cap), ImVec2(right, place.y), colour);
-  draw_text(list, *fonts.small, ImVec2(left, place.y - cap - extent.y), theme.faint_ink(), label);
+  draw_text(list, fonts.small, ImVec2(left, place.y - cap - extent.y), theme.faint_ink(), label);
 }
 
 struct Figure {
@@ -252,11 +252,11 @@ void draw_row(ImDrawList& list, const Snapshot& snapshot, const Projection& proj
   }
   float x = page.left;
   for (const Figure& figure : figures) {
-    const float width = text_extent(*page.fonts.text, figure.text).x;
+    const float width = text_extent(page.fonts.text, figure.text).x;
     if (x + width > right - unit) return;
     draw_plate(list, ImVec2(x, bottom - unit), ImVec2(x + width, bottom), page);
-    draw_text(list, *page.fonts.text, ImVec2(x, bottom - unit), figure.ink, figure.text);
-    const float widest = text_extent(*page.fonts.text, figure.widest).x;
+    draw_text(list, page.fonts.text, ImVec2(x, bottom - unit), figure.ink, figure.text);
+    const float widest = text_extent(page.fonts.text, figure.widest).x;
     x += std::round(std::max(width, widest) + 1.5f * unit);
   }
 }
@@ -282,21 +282,21 @@ void draw_column(ImDrawList& list, const Snapshot& snapshot, const Projection& p
   float top = end - static_cast<float>(walls.size()) * line + 0.5f * unit;
   if (top - unit > page.heading) {
     for (const std::string& text : walls) {
-      const float width = text_extent(*page.fonts.text, text).x;
+      const float width = text_extent(page.fonts.text, text).x;
       draw_plate(list, ImVec2(page.left, top), ImVec2(page.left + width, top + unit), page);
-      draw_text(list, *page.fonts.text, ImVec2(page.left, top), page.theme.faint_ink(), text);
+      draw_text(list, page.fonts.text, ImVec2(page.left, top), page.theme.faint_ink(), text);
       top += line;
     }
   }
   if (figures.empty()) return;
   float width = 0.0f;
   for (const Figure& figure : figures) {
-    width = std::max(width, text_extent(*page.fonts.text, figure.text).x);
+    width = std::max(width, text_extent(page.fonts.text, figure.text).x);
   }
   draw_plate(list, ImVec2(page.left, y), ImVec2(page.left + width, page.size.height - page.edge),
              page);
   for (const Figure& figure : figures) {
-    draw_text(list, *page.fonts.text, ImVec2(page.left, y), figure.ink, figure.text);
+    draw_text(list, page.fonts.text, ImVec2(page.left, y), figure.ink, figure.text);
     y += line;
   }
 }
@@ -392,7 +392,7 @@ void draw_captions(ImDrawList& list, const std::vector<Caption>& all, double tim
     const double opacity = caption_opacity(caption, time, speed);
     if (opacity == 0.0) continue;
     captions.push_back(
-        {marked_lines(caption.text, *page.fonts.title, *page.fonts.text, 0.9f * width), opacity});
+        {marked_lines(caption.text, page.fonts.title, page.fonts.text, 0.9f * width), opacity});
     for (const MarkedLine& line : captions.back().lines) height += line.height;
     height += gap;
   }
@@ -416,44 +416,36 @@ void draw_captions(ImDrawList& list, const std::vector<Caption>& all, double tim
 }
 
 // A line of text in the middle of the picture, with its upper edge at `y`.
-void draw_centred(ImDrawList& list, const ImFont& font, float y, ImU32 colour,
+void draw_centred(ImDrawList& list, const Font& font, float y, ImU32 colour,
                   const std::string& line, const Page& page) {
   const float x = std::round(0.5f * (page.size.width - text_extent(font, line).x));
-  list.AddText(&font, font.FontSize, ImVec2(x, y), colour, line.c_str());
+  list.AddText(font.face, font.size, ImVec2(x, y), colour, line.c_str());
 }
 
 // A text broken between words into lines of at most `width` pixels.
-std::vector<std::string> lines_of(const std::string& text, const ImFont& font, float width) {
-  std::vector<std::string> lines;
-  const char *at = text.data(), *end = at + text.size();
-  while (at < end) {
-    const char* line_end = font.CalcWordWrapPositionA(1.0f, at, end, width);
-    if (line_end == at) line_end = end;  // too narrow for one letter
-    lines.emplace_back(at, line_end);
-    at = line_end;
-    while (at < end && (*at == ' ' || *at == '\n')) ++at;
-  }
-  return lines;
+std::vector<std::string> lines_of(const std::string& text, const Font& font, float width) {
+  return broken_lines(text,
+                      [&](const std::string& line) { return text_extent(font, line).x <= width; });
 }
 
 // Title card: title and caption in the middle, over the whole picture.
 void draw_card(ImDrawList& list, const OverlayText& text, const Page& page) {
   const float unit = page.fonts.unit(), width = 0.8f * page.size.width;
-  const auto titles = lines_of(text.title, *page.fonts.card, width);
-  const auto captions = lines_of(text.caption, *page.fonts.title, width);
-  const float title_line = 1.2f * page.fonts.card->FontSize;
-  const float caption_line = 1.3f * page.fonts.title->FontSize;
+  const auto titles = lines_of(text.title, page.fonts.card, width);
+  const auto captions = lines_of(text.caption, page.fonts.title, width);
+  const float title_line = 1.2f * page.fonts.card.size;
+  const float caption_line = 1.3f * page.fonts.title.size;
   const float height = titles.size() * title_line + unit + captions.size() * caption_line;
   float y = std::round(0.5f * (page.size.height - height));
   list.AddRectFilled(ImVec2(0.0f, 0.0f), ImVec2(page.size.width, page.size.height),
                      with_opacity(page.theme.background, text.card));
   for (const std::string& line : titles) {
-    draw_centred(list, *page.fonts.card, y, with_opacity(page.theme.text, text.card), line, page);
+    draw_centred(list, page.fonts.card, y, with_opacity(page.theme.text, text.card), line, page);
     y += std::round(title_line);
   }
   y += std::round(unit);
   for (const std::string& line : captions) {
-    draw_centred(list, *page.fonts.title, y, with_opacity(page.theme.faint_text, text.card), line,
+    draw_centred(list, page.fonts.title, y, with_opacity(page.theme.faint_text, text.card), line,
                  page);
     y += std::round(caption_line);
   }
@@ -478,17 +470,16 @@ double caption_opacity(const Caption& caption, double time, double speed) {
 
 Overlay::Overlay(const Gl& gl) : gui_(gl), context_(make_gui_context()) {}
 
-Fonts Overlay::fonts_for(Size size, const OverlayText& text) {
+const Fonts& Overlay::fonts_for(Size size, const OverlayText& text) {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   const float unit = unit_for(size, text);
   const std::string& title = text.card > 0.0 ? text.title : loaded_title_;
-  if (unit == loaded_size_ && title == loaded_title_) return loaded_fonts(atlas);
+  if (unit == fonts_.unit() && title == loaded_title_) return fonts_;
   atlas.Clear();
-  loaded_size_ = unit;
   loaded_title_ = title;
-  const Fonts fonts = add_fonts(atlas, loaded_size_, loaded_title_);
+  fonts_ = add_fonts(atlas, unit, loaded_title_);
   gui_.upload(atlas);
-  return fonts;
+  return fonts_;
 }
 
 Margins Overlay::margins(const Snapshot& snapshot, Size size, const View& view,
@@ -507,7 +498,7 @@ void Overlay::draw(const Snapshot& snapshot, const Projection& projection, const
   const Legends legends = shown_legends(all_legends, view);
   const OverlayText shown = shown_text(text, view);
   const Faces box = box_area(snapshot, projection);
-  const Fonts fonts = fonts_for(size, text);
+  const Fonts& fonts = fonts_for(size, text);
   Page page = arrange(snapshot, fonts, theme, size, view, legends, shown, true);
   if (!is_inside(box, page)) {
     page = arrange(snapshot, fonts, theme, size, view, legends, shown, false);

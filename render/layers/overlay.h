@@ -48,11 +48,11 @@ class Overlay {
 
  private:
   /// Loads the fonts for a picture of `size` and for its title. The context must be current.
-  Fonts fonts_for(Size size, const OverlayText& text);
+  const Fonts& fonts_for(Size size, const OverlayText& text);
 
   GuiLayer gui_;
   GuiContext context_;
-  float loaded_size_ = 0.0f;  ///< text size of the loaded fonts, pixels; 0: none yet
+  Fonts fonts_;               ///< of the last picture
   std::string loaded_title_;  ///< title in the card font
 };
 

@@ -73,7 +73,7 @@ class PanelDrawing {
     draw_axis(x_, true, names_x);
     draw_axis(y_, false, names_y);
     const float title = frame_.low.y - 1.5f * fonts_.unit();
-    draw_text(list_, *fonts_.text, ImVec2(frame_.low.x, title), theme_.ink(), panel.title);
+    draw_text(list_, fonts_.text, ImVec2(frame_.low.x, title), theme_.ink(), panel.title);
     draw_line(panel);
     for (const PlotPoint& point : panel.points) draw_point(point);
     for (const PlotPoint& point : panel.points) draw_label(point);
@@ -108,12 +108,12 @@ class PanelDrawing {
 
   void draw_number(double value, double share, bool across) {
     const std::string text = typeset_number(fmt::format("{:g}", value));
-    const ImVec2 extent = text_extent(*fonts_.small, text);
+    const ImVec2 extent = text_extent(fonts_.small, text);
     const float gap = 0.4f * fonts_.unit();
     ImVec2 at = across ? place(share, 0.0) : place(0.0, share);
     at = across ? ImVec2(at.x - 0.5f * extent.x, at.y + gap)
                 : ImVec2(at.x - extent.x - gap, at.y - 0.5f * extent.y);
-    draw_text(list_, *fonts_.small, at, theme_.faint_ink(), text);
+    draw_text(list_, fonts_.small, at, theme_.faint_ink(), text);
   }
 
   void draw_line(const PlotPanel& panel) {
@@ -141,7 +141,7 @@ class PanelDrawing {
 
   // Draws the label on the first side of the point that is free, or not at all.
   void draw_label(const PlotPoint& point) {
-    const ImVec2 extent = text_extent(*fonts_.small, point.label), at = place(point);
+    const ImVec2 extent = text_extent(fonts_.small, point.label), at = place(point);
     const float gap = 0.5f * fonts_.unit();
     const std::array<ImVec2, 6> sides = {{{-0.5f * extent.x, -gap - extent.y},
                                           {gap, -0.5f * extent.y},
@@ -155,7 +155,7 @@ class PanelDrawing {
       const bool covers =
           std::ranges::any_of(taken_, [&](const Rectangle& other) { return label.meets(other); });
       if (covers || !frame_.is_current(label)) continue;
-      draw_text(list_, *fonts_.small, corner, point.hollow ? theme_.faint_ink() : theme_.ink(),
+      draw_text(list_, fonts_.small, corner, point.hollow ? theme_.faint_ink() : theme_.ink(),
                 point.label);
       taken_.push_back(label);
       return;
@@ -174,11 +174,11 @@ void draw_page(ImDrawList& list, const Fonts& fonts, const Plot& plot, Size size
                const ThemeColours& theme) {
   const float unit = fonts.unit(), edge = std::round(1.5f * unit);
   const float width = static_cast<float>(size.width) - 2.0f * edge;
-  draw_text(list, *fonts.title, ImVec2(edge, edge), theme.ink(), plot.title);
+  draw_text(list, fonts.title, ImVec2(edge, edge), theme.ink(), plot.title);
   float top = edge + 2.0f * unit;
-  draw_text(list, *fonts.text, ImVec2(edge, top), theme.faint_ink(), plot.caption, width);
-  top += text_extent(*fonts.text, plot.caption, width).y + unit;
-  draw_text(list, *fonts.small, ImVec2(edge, top), theme.faint_ink(), plot.y_name);
+  draw_text(list, fonts.text, ImVec2(edge, top), theme.faint_ink(), plot.caption, width);
+  top += text_extent(fonts.text, plot.caption, width).y + unit;
+  draw_text(list, fonts.small, ImVec2(edge, top), theme.faint_ink(), plot.y_name);
   top += 2.0f * unit;
 
   const auto count = static_cast<int>(plot.panels.size());
@@ -200,8 +200,8 @@ void draw_page(ImDrawList& list, const Fonts& fonts, const Plot& plot, Size size
     PanelDrawing(list, fonts, theme, frame, x, y)
         .draw(plot.panels[static_cast<std::size_t>(k)], k + columns >= count, column == 0);
   }
-  const float name = text_extent(*fonts.small, plot.x_name).x;
-  draw_text(list, *fonts.small,
+  const float name = text_extent(fonts.small, plot.x_name).x;
+  draw_text(list, fonts.small,
             ImVec2(size.width - edge - name, static_cast<float>(size.height) - edge - unit),
             theme.faint_ink(), plot.x_name);
 }
@@ -209,12 +209,11 @@ void draw_page(ImDrawList& list, const Fonts& fonts, const Plot& plot, Size size
 }  // namespace
 
 Image plot_image(const Gl& gl, const Plot& plot, Size size, const ThemeColours& theme) {
+  Fonts fonts;
   return gui_picture(
       gl, size, theme.background,
-      [&](ImFontAtlas& fonts) { add_fonts(fonts, std::round(size.height / 55.0f)); },
-      [&](ImDrawList& list, const ImFontAtlas& fonts) {
-        draw_page(list, loaded_fonts(fonts), plot, size, theme);
-      });
+      [&](ImFontAtlas& atlas) { fonts = add_fonts(atlas, std::round(size.height / 55.0f)); },
+      [&](ImDrawList& list) { draw_page(list, fonts, plot, size, theme); });
 }
 
 }  // namespace clatter

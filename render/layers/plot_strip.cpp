@@ -22,14 +22,14 @@ PlotStrip::PlotStrip(const Gl& gl, Size size, Size whole, bool transparent)
 // Draws a plot between two corners.
 static void draw_one(ImDrawList& list, const LivePlot& plot, ImVec2 low, ImVec2 high,
                      const PlotStyle& style) {
-  list.AddText(style.font, style.text, low, style.ink, plot.title.c_str());
-  const float unit = style.font->CalcTextSizeA(style.text, FLT_MAX, 0.0f, plot.y_label.c_str()).x;
-  const float title = style.font->CalcTextSizeA(style.text, FLT_MAX, 0.0f, plot.title.c_str()).x;
-  const float right = low.x + title + 0.6f * style.text;
+  const float size = style.text.size;
+  list.AddText(style.text.face, size, low, style.ink, plot.title.c_str());
+  const float unit = text_extent(style.text, plot.y_label).x;
+  const float right = low.x + text_extent(style.text, plot.title).x + 0.6f * size;
   if (right + unit <= high.x) {
-    list.AddText(style.font, style.text, ImVec2(right, low.y), style.faint, plot.y_label.c_str());
+    list.AddText(style.text.face, size, ImVec2(right, low.y), style.faint, plot.y_label.c_str());
   }
-  const ImVec2 names(low.x, low.y + 1.3f * style.text);
+  const ImVec2 names(low.x, low.y + 1.3f * size);
   float below = 0.0f;
   for (const LegendEntry& entry : legend_of(plot, high.x - low.x, style)) {
     draw_entry(list, entry, names, style);
@@ -52,10 +52,8 @@ Image PlotStrip::draw(const std::vector<std::optional<LivePlot>>& plots,
   gl_->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 
   const float unit = fonts_.unit(), edge = std::round(1.2f * unit);
-  const PlotStyle style{.font = fonts_.text,
-                        .text = unit,
-                        .number_font = fonts_.small,
-                        .numbers = fonts_.small->FontSize,
+  const PlotStyle style{.text = fonts_.text,
+                        .numbers = fonts_.small,
                         .ink = packed(theme.text),
                         .faint = packed(theme.faint_text),
                         .line = packed(mix(theme.background, theme.faint_text, 0.35))};

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <imgui.h>
-
 #include <string>
 #include <vector>
+
+#include "render/layers/fonts.h"
 
 namespace clatter {
 
@@ -23,6 +23,7 @@ class TextWidths {
 
  private:
   ImFontAtlas atlas_;
+  Font font_;
 };
 
 }  // namespace clatter

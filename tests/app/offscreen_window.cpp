@@ -7,6 +7,7 @@
 #include <fstream>
 #include <thread>
 
+#include "app/view/gui_keys.h"
 #include "tests/app/logged_widgets.h"
 #include "tests/render/picture.h"
 #include "tests/support/drawn_text.h"
@@ -61,6 +62,15 @@ void OffscreenWindow::press(char letter) {
 void OffscreenWindow::press_key(int key) {
   input_.press({.key = key});
   draw();
+}
+
+void OffscreenWindow::type(char sign) {
+  input_.type(static_cast<unsigned char>(sign));
+  draw();
+}
+
+void OffscreenWindow::shift(bool down) {
+  pass_modifiers(down, false);
 }
 
 void OffscreenWindow::drop(const std::string& scene) {

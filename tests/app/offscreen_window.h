@@ -34,6 +34,10 @@ class OffscreenWindow {
   void press(char letter);
   /// Presses the key with this code of GLFW.
   void press_key(int key);
+  /// Types a sign of ASCII.
+  void type(char sign);
+  /// Holds or releases the Shift key.
+  void shift(bool down);
   /// Drops a scene of this text on the window.
   void drop(const std::string& scene);
   /// Moves the mouse to these shares of the width and height of a widget with this name in the

@@ -22,8 +22,7 @@ PanelDriver::PanelDriver(const Scene& scene, Panel panel)
   const CurrentContext current(context_.get());
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = ImVec2(kWidth, kHeight);
-  io.FontDefault = const_cast<ImFont*>(add_fonts(*io.Fonts, kTextSize).text);
-  io.Fonts->Build();
+  io.FontDefault = add_fonts(*io.Fonts, kTextSize).text.face;
   io.ClipboardUserData = &text_;
   io.SetClipboardTextFn = [](void* text, const char* written) {
     *static_cast<std::string*>(text) = written;

@@ -100,7 +100,7 @@ set = { "particles.restitution" = 0.8 }
   window.point_at("timeline.change.1", 0.5f, 0.5f);
   check_panels("window_timeline", window.picture());
   CHECK(window.tooltip("timeline.change.0") == "t = 1 to 2.5 walls.left.temperature = 3.0");
-  ImGui::GetIO().KeyShift = true;
+  window.shift(true);
   window.point_at("timeline", 0.3f, 0.6f);
   window.hold(true);
   window.point_at("timeline", 0.5f, 0.6f);
@@ -203,7 +203,7 @@ walls.back = { kind = "static" }
 walls.front = { kind = "sinusoidal", stroke = 0.5, frequency = 0.5 }
 )"),
                          900.0f, 700.0f);
-  ImGui::GetIO().KeyShift = true;
+  window.shift(true);
   window.point_at("wall.right", 0.5f, 0.5f);
   window.hold(true);
   window.point_at("wall.right", 0.8f, 0.7f);

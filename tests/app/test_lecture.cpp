@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <imgui.h>
-#include <imgui_internal.h>
 
 #include <algorithm>
 #include <chrono>
@@ -105,8 +104,8 @@ TEST_CASE("Lecture: ink is opaque at first, fades, and is removed") {
 TEST_CASE("Lecture: a painted line fades, and a lifted pen begins another line") {
   const GuiContext context = make_gui_context();
   const CurrentContext current(context.get());
-  ImDrawListSharedData shared;
-  shared.SetCircleTessellationMaxError(0.3f);
+  ImGui::GetIO().DisplaySize = ImVec2(100.0f, 100.0f);
+  ImGui::GetIO().Fonts->Build();
   struct Painted {
     int vertices;
     ImU32 opacity;  // the largest of a vertex, 0..255
@@ -116,13 +115,14 @@ TEST_CASE("Lecture: a painted line fades, and a lifted pen begins another line")
     ink.draw_to(ImVec2(10, 10), 0.0);
     if (lifts) ink.lift();
     ink.draw_to(ImVec2(30, 10), 0.1);
-    ImDrawList list(&shared);
-    list._ResetForNewFrame();
-    ink.paint(list, IM_COL32_WHITE, 4.0f, now);
+    ImGui::NewFrame();
+    const ImDrawList& list = *ImGui::GetForegroundDrawList();
+    ink.paint(*ImGui::GetForegroundDrawList(), IM_COL32_WHITE, 4.0f, now);
     Painted result{list.VtxBuffer.Size, 0};
     for (const ImDrawVert& vertex : list.VtxBuffer) {
       result.opacity = std::max(result.opacity, vertex.col >> IM_COL32_A_SHIFT);
     }
+    ImGui::EndFrame();
     return result;
   };
   CHECK(painted(false, 0.2).vertices > painted(true, 0.2).vertices);
@@ -136,7 +136,7 @@ TEST_CASE("Lecture: each name of a plot is that of its plot") {
   frame.scene = std::make_shared<const Scene>(load_scene("vibrated"));
   frame.snapshot.box = Vec2(20.0, 25.0);
   const auto title = [&](LecturePlot which) {
-    const History history;
+    const History history{};
     const auto plot = lecture_plot(which, {{&history, &frame, ""}}, 0, kDarkTheme);
     return plot ? plot->title : "";
   };

@@ -100,7 +100,7 @@ TEST_CASE("Tooltips: comparisons, tools of the mouse and unsaved changes") {
   PanelDriver driver(uneven_disks(), [&](Session& session, Controls& controls) {
     compare_panel(session, controls, {"A: first", "B: second"});
     tools.panel(session.scene(), controls);
-    if (asks) unsaved_question(controls, "");
+    if (asks) unsaved_question(controls, "", Answer::None);
   });
   check_help(driver, {{"compare.gas", "that the panels change"},
                       {"compare.add", "Runs a copy"},

@@ -40,7 +40,7 @@ class DrawnPlot {
     const CurrentContext current(context_.get());
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = ImVec2(400.0f, 400.0f);
-    io.FontDefault = const_cast<ImFont*>(add_fonts(*io.Fonts, 14.0f).text);
+    io.FontDefault = add_fonts(*io.Fonts, 14.0f).text.face;
     for (int picture = 0; picture < 2; ++picture) {
       ImGui::NewFrame();
       ImGui::SetNextWindowSize(io.DisplaySize);

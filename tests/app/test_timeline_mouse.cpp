@@ -112,9 +112,9 @@ TEST_CASE("Timeline: the nearest of two marks is dragged, to a time with few dig
 TEST_CASE("Timeline: a drag with Shift repeats the stretch, in either direction") {
   RunWindow run;
   const auto repeated = [&](double from, double to) {
-    ImGui::GetIO().KeyShift = true;
+    run.window.shift(true);
     run.drag(run.place(from), run.place(to));
-    ImGui::GetIO().KeyShift = false;
+    run.window.shift(false);
     const auto stretch = run.window.logged("repeat");
     return std::array<double, 2>{stretch["from"], stretch["to"]};
   };
@@ -133,8 +133,7 @@ TEST_CASE("Timeline: after a click a gas continues in its direction") {
     run.click(run.place(5.0));
     run.window.settle();
     do {
-      ImGui::GetIO().AddInputCharacter('-');
-      run.window.draw();
+      run.window.type('-');
       run.window.settle();
     } while (run.window.logged("speed")["speed"] > 0.1);
     const auto moves = [&] {

@@ -67,7 +67,7 @@ TEST_CASE("Window: F11 fills the screen, and restores the window at its place") 
 TEST_CASE("Window: letters, comma and period are those of the keyboard layout") {
   // On this layout W, V and Z have the places of the comma, the period and the slash.
   const GuiDriver driver("--until 1", "1280x800");
-  REQUIRE(driver.run("setxkbmap dvorak").code == 0);
+  REQUIRE(driver.run("setxkbmap us dvorak").code == 0);
   driver.wait_for("status", 0, halted);
   driver.drag("particles.restitution", 0.88, 0.5);
   driver.wait_for("set");

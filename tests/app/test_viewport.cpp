@@ -100,8 +100,7 @@ void drag_right(OffscreenWindow& window, float right, float down) {
 
 // Advances the gas by a frame.
 void step(OffscreenWindow& window) {
-  ImGui::GetIO().AddInputCharacter('.');
-  window.draw();
+  window.type('.');
   window.settle();
 }
 

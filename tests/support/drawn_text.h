@@ -31,6 +31,15 @@ inline void append_utf8(std::string& text, unsigned letter) {
   }
 }
 
+/// The letters of a font. From version 1.92 on, Dear ImGui keeps them for each size.
+inline const ImVector<ImFontGlyph>& glyphs_of(ImFont& font) {
+#if IMGUI_VERSION_NUM < 19200
+  return font.Glyphs;
+#else
+  return font.GetFontBaked(font.LegacySize)->Glyphs;
+#endif
+}
+
 /// The texts of a draw list in drawing order. Consecutive letters in a line form one text. Gaps are
 /// spaces.
 inline std::vector<DrawnText> texts_in(const ImDrawList& list) {
@@ -39,8 +48,8 @@ inline std::vector<DrawnText> texts_in(const ImDrawList& list) {
     float scale = 1.0f;
   };
   const auto letter_at = [](const ImDrawVert* corner) {
-    for (const ImFont* font : ImGui::GetIO().Fonts->Fonts) {
-      for (const ImFontGlyph& glyph : font->Glyphs) {
+    for (ImFont* font : ImGui::GetIO().Fonts->Fonts) {
+      for (const ImFontGlyph& glyph : glyphs_of(*font)) {
         const bool same = std::fabs(glyph.U0 - corner[0].uv.x) < 1e-6f &&
                           std::fabs(glyph.V0 - corner[0].uv.y) < 1e-6f &&
                           std::fabs(glyph.U1 - corner[2].uv.x) < 1e-6f &&
