@@ -3,6 +3,8 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <cstdlib>
+
 #include "engine/error.h"
 
 namespace clatter {
@@ -13,7 +15,17 @@ static RunError failure(const char* what) {
   return RunError(std::string("glfw: ") + what + (reason ? std::string(", ") + reason : ""));
 }
 
+// GLFW 3.4 looks for a compositor of Wayland first, whose library complains on standard error if
+// there is none.
+static void prefer_named_display() {
+#ifdef GLFW_PLATFORM_X11
+  const char* wayland = std::getenv("WAYLAND_DISPLAY");
+  if (!wayland || !*wayland) glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
+}
+
 GlfwContext::GlfwContext(const std::string& title, Size size) {
+  prefer_named_display();
   if (!glfwInit()) throw failure("no display");
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);

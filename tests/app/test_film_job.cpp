@@ -13,7 +13,7 @@ namespace {
 // 210 frames with automatic colours, averages and trails, at an uneven frame rate.
 const std::string kJob =
     "clatter render scene.toml --size 160x120 --speed 0.7 --from 2 --to 23 --shutter 0.5 "
-    "--seed 5 --set particles.restitution=0.85 --backend osmesa --fps ";
+    "--seed 5 --set particles.restitution=0.85 --backend egl --fps ";
 
 // The word `name` for a shell.
 std::string word(const std::string& name) {
@@ -202,7 +202,7 @@ TEST_CASE("Film job: parts with another size or frame rate are refused by name")
     const std::string frames = std::to_string(first) + ':' + std::to_string(first + 60);
     const Outcome drawn = shell.run(
         "mkdir -p parts && clatter render scene.toml --to 12 --speed 1 --seed 5 --quiet --backend "
-        "osmesa --overwrite --frames " +
+        "egl --overwrite --frames " +
         frames + " --out parts/" + std::to_string(first) + extension + ' ' + flags);
     CAPTURE(drawn.err);
     REQUIRE(drawn.code == 0);
@@ -247,7 +247,7 @@ TEST_CASE("Film job: a join writes no files beside the parts, and follows a link
 
 TEST_CASE("Film job: the tasks have the start state of the submission") {
   const Shell shell;
-  const std::string film = "clatter render --to 1 --fps 10 --size 64x48 --backend osmesa --quiet ";
+  const std::string film = "clatter render --to 1 --fps 10 --size 64x48 --backend egl --quiet ";
   const std::string submit = " --slurm 1 --dry-run --out ";
   const auto same_pictures = [](const std::string& one, const std::string& two) {
     return "for f in " + one + ' ' + two +

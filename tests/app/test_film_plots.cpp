@@ -246,7 +246,7 @@ TEST_CASE("Film plots: curves are drawn where their axes say") {
   LivePlot plot{"Title", "x", false, false, {}, "unit"};
   plot.curves = {{"", kMarked, {{0.0, 2.0}, {1.0, 2.0}}},
                  {"", {0, 0, 0xff}, {{0.0, 0.0}, {1.0, 4.0}}}};
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   for (const bool transparent : {false, true}) {
     CAPTURE(transparent);
     PlotStrip strip(context->gl(), {300, 400}, {1000, 720}, transparent);
@@ -275,7 +275,7 @@ TEST_CASE("Film plots: curves are drawn where their axes say") {
 TEST_CASE("Film plots: each has its place in a strip, also below a high picture") {
   constexpr std::array<Colour, 4> kColours = {
       {{0xff, 0x00, 0x00}, {0x00, 0xff, 0x00}, {0x00, 0x00, 0xff}, {0xff, 0xff, 0x00}}};
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   for (const Size size : {Size{384, 720}, Size{720, 384}}) {
     CAPTURE(size.width);
     PlotStrip strip(context->gl(), size, {1280, 720}, false);

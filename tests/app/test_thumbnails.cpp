@@ -73,7 +73,7 @@ view.colour_by = "none"
 
 // Thermal walls have a hue, and static walls are grey.
 TEST_CASE("Thumbnails: the lowest row is first, and the leftmost pixel of a row") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   Thumbnails thumbnails(context->gl(), renderer);
   const EmbeddedFile scene{"walls.toml", R"(

@@ -151,7 +151,7 @@ std::vector<Override> settings_in(std::string_view text) {
 }
 
 void draw(const Scene& scene, const Snapshot& snapshot) {
-  static const auto context = open_context(Backend::Osmesa);
+  static const auto context = open_context(Backend::Auto);
   static const Canvas canvas(context->gl(), {64, 48});
   static Renderer renderer(context->gl());
   canvas.bind();

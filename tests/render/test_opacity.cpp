@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/physics/random.h"
-#include "tests/render/es_context.h"
+#include "tests/render/optional_context.h"
 #include "tests/render/picture.h"
 
 namespace clatter {
@@ -110,7 +110,7 @@ void check_means(const Gl& gl) {
 }  // namespace
 
 TEST_CASE("Opacity: a faded picture is the weighted mean of those with and without particles") {
-  check_means(open_context(Backend::Osmesa)->gl());
+  check_means(open_context(Backend::Auto)->gl());
 }
 
 TEST_CASE("Opacity: it has the same meaning with OpenGL ES") {
@@ -118,7 +118,7 @@ TEST_CASE("Opacity: it has the same meaning with OpenGL ES") {
 }
 
 TEST_CASE("Opacity: spheres fade as one front surface, without those behind") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   Snapshot snapshot = crowded_spheres();
   snapshot.positions = as_columns<3>({{3.0, 2.5, 3.4}, {3.4, 2.5, 0.6}});
@@ -136,7 +136,7 @@ TEST_CASE("Opacity: spheres fade as one front surface, without those behind") {
 }
 
 TEST_CASE("Opacity: without a background it is the opacity of the particles' pixels") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Snapshot snapshot = one_disk({5.0, 5.0}, 1.0);
   snapshot.box = Vec2(10.0, 10.0);
   View view;
@@ -168,7 +168,7 @@ TEST_CASE("Opacity: without a background it is the opacity of the particles' pix
 }
 
 TEST_CASE("Opacity: trails and arrows do not fade") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   Snapshot snapshot = one_disk({120.0, 60.0}, 20.0);
   snapshot.flights = {{0, -1.0, 0.0, Vec2(40.0, 60.0), Vec2(80.0, 0.0), Vec2(0.0, 0.0)}};
@@ -201,7 +201,7 @@ TEST_CASE("Opacity: trails and arrows do not fade") {
 }
 
 TEST_CASE("Opacity: hidden particles have no colour bar, unless trails have their colours") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   const Snapshot snapshot = driven_box();
   constexpr Size kSize{640, 360};

@@ -44,7 +44,7 @@ View tiled_view() {
 }
 
 Image drawn_tiles(const Snapshot& snapshot, const View& view, bool transparent = false) {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl(), 1, transparent);
   return draw(renderer, context->gl(), snapshot, kTiled.camera, kUnitSize, view);
 }
@@ -157,7 +157,7 @@ TEST_CASE("Tiling: texts over copies have a plate") {
   snapshot.field = FieldMap{Quantity::Density, {1, 1}, {1.0}};
   constexpr Size kSize{400, 300};
   const Camera camera{{32.0, 50.0}, 400.0};  // the box is from column 168 to 232
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   const auto heading = [&](const Snapshot& gas) {
     view.overlay = true;

@@ -22,7 +22,7 @@ Colour over(Colour picture, Colour background) {
 TEST_CASE(
     "Transparency: a picture without a background has its own colours, and opacity where something "
     "is") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Snapshot snapshot;
   snapshot.box = Vec2(10.0, 10.0);
   snapshot.walls.fill(Wall{});
@@ -64,7 +64,7 @@ TEST_CASE(
 
 TEST_CASE(
     "Transparency: small disks, and trails, have their own colours without a background, too") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Snapshot snapshot;
   snapshot.box = Vec2(10.0, 10.0);
   snapshot.walls.fill(Wall{});

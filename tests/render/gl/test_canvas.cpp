@@ -7,7 +7,7 @@
 namespace clatter {
 
 TEST_CASE("Canvas: a canvas has the size asked for, and its first row is the top one") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const Gl& gl = context->gl();
   const Canvas canvas = blank_canvas(gl, {7, 5});
   gl.Enable(GL_SCISSOR_TEST);
@@ -24,7 +24,7 @@ TEST_CASE("Canvas: a canvas has the size asked for, and its first row is the top
 }
 
 TEST_CASE("Canvas: a canvas larger than OpenGL allows is refused") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   CHECK_THROWS_WITH_AS(Canvas(context->gl(), {1 << 20, 10}), doctest::Contains("too large"),
                        RunError);
 }

@@ -50,7 +50,7 @@ Extent extent_of(const Image& image) {
 TEST_CASE(
     "Arrow layer: an arrow is as long as its value, points along it, and has its middle at its "
     "place") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   for (int k = 0; k < 12; ++k) {
     CAPTURE(k);
     const double angle = k * std::numbers::pi / 6.0;
@@ -72,14 +72,14 @@ TEST_CASE(
 }
 
 TEST_CASE("Arrow layer: arrows are two cells long at most, and vanishing values have none") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const Extent extent = extent_of(draw(context->gl(), {{Vec2(10.0, 10.0), Vec2(1e6, 0.0)}}, 20.0));
   CHECK(std::abs(extent.high.x() - extent.low.x() - 80.0) < 4.0);
   CHECK(extent_of(draw(context->gl(), {{Vec2(10.0, 10.0), Vec2(0.0, 0.0)}}, 20.0)).count == 0);
 }
 
 TEST_CASE("Arrow layer: a short arrow keeps its form") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const Extent small = extent_of(draw(context->gl(), {{Vec2(10.05, 10.05), Vec2(0.2, 0.0)}}, 20.0));
   REQUIRE(small.count > 0);
   CHECK(small.high.x() - small.low.x() <= 4.0);
@@ -88,7 +88,7 @@ TEST_CASE("Arrow layer: a short arrow keeps its form") {
 
 // A flux of rounding errors would give a field of bars. Coincident tips have no direction.
 TEST_CASE("Arrow layer: arrows shorter than half a pixel are not drawn") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   for (const double length : {0.024, 1e-7, 1e-20, 5e-324}) {  // .024: .48 pixels
     CAPTURE(length);
     const std::vector<ArrowMap::Arrow> arrows = {{Vec2(10.0, 10.0), Vec2(length, 0.0)},

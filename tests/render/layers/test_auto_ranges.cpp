@@ -35,7 +35,7 @@ View view_of(Field field) {
 }  // namespace
 
 TEST_CASE("Automatic ranges: the colours of a heatmap follow, or are locked, or are given") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const ColourMap map = field_map(FieldPalette::Blue, kDarkTheme.background);
   View view = view_of(Quantity::Temperature);
   const auto colours = [&] {
@@ -58,7 +58,7 @@ TEST_CASE("Automatic ranges: the colours of a heatmap follow, or are locked, or 
 
 TEST_CASE(
     "Automatic ranges: a heatmap without any value, as before the first average, is not drawn") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   const View view = view_of(Quantity::Density);
   Snapshot snapshot;
@@ -73,7 +73,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Automatic ranges: fixed ones stop following, but given ones still hold") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   View view = view_of(Quantity::Temperature);
   Snapshot snapshot;
   snapshot.box = Vec2(10.0, 10.0);
@@ -106,7 +106,7 @@ TEST_CASE("Automatic ranges: fixed ones stop following, but given ones still hol
 }
 
 TEST_CASE("Automatic ranges: another field locks one of its own") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   AutoRanges ranges;
   View view = view_of(Quantity::Temperature);
@@ -120,7 +120,7 @@ TEST_CASE("Automatic ranges: another field locks one of its own") {
 TEST_CASE(
     "Automatic ranges: magnitudes have the palette, its end far from zero; signed fields have two "
     "ends") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const auto colour = [&](Field field, double value) {
     Renderer renderer(context->gl());
     AutoRanges ranges;

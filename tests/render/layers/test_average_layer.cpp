@@ -6,7 +6,7 @@
 namespace clatter {
 
 TEST_CASE("Average layer: samples are averaged as linear light") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const Gl& gl = context->gl();
   const Canvas fine = blank_canvas(gl, {6, 4});
   gl.Enable(GL_SCISSOR_TEST);

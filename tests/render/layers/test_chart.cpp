@@ -329,7 +329,7 @@ TEST_CASE("Chart: a chart without points is an empty frame, also in a tiny pictu
 }
 
 TEST_CASE("Chart: the picture has the markers, dashes and texts of the file") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const Gl& gl = context->gl();
   Chart chart = chart_of({{0.0, 0.0}, {0.3, 0.8, 0.1}, {1.0, 1.0}});
   chart.series.push_back({"", {{0.8, 0.2}}});

@@ -45,7 +45,7 @@ Circle measure(const Image& image) {
 }  // namespace
 
 TEST_CASE("Disk layer: a disk that follows a wall out of the box is drawn there only") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Snapshot snapshot = one_disk({-4.0 + 100.0, 60.0}, 40.0);
   snapshot.box = Vec2(100.0, kUnitSize.height);
   const Image still = draw(context->gl(), snapshot, kAlwaysPoints);
@@ -57,7 +57,7 @@ TEST_CASE("Disk layer: a disk that follows a wall out of the box is drawn there 
 }
 
 TEST_CASE("Disk layer: a disk is drawn where it is and as large as it is") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   for (double largest_point : {kAlwaysPoints, kAlwaysSquares}) {
     CAPTURE(largest_point);
     for (Vec2 centre : {Vec2(60.0, 50.0), Vec2(61.0, 50.0), Vec2(77.3, 41.8)}) {
@@ -71,7 +71,7 @@ TEST_CASE("Disk layer: a disk is drawn where it is and as large as it is") {
 }
 
 TEST_CASE("Disk layer: points and squares give the same picture") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Snapshot snapshot = one_disk({60.2, 50.7}, 31.0);
   std::vector<Vec2> places = {{60.2, 50.7}}, velocities = {{0.0, 0.0}};
   for (double x : {0.0, 15.6, 120.0, 190.1}) {
@@ -89,7 +89,7 @@ TEST_CASE("Disk layer: points and squares give the same picture") {
 }
 
 TEST_CASE("Disk layer: particles whose angles are known have a mark that turns with them") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Snapshot snapshot = one_disk({100.0, 60.0}, 40.0);
   const Image unmarked = draw(context->gl(), snapshot, kAlwaysPoints);
   for (const double angle : {0.0, 0.5 * M_PI, 2.0, -3.0}) {
@@ -109,7 +109,7 @@ TEST_CASE("Disk layer: particles whose angles are known have a mark that turns w
 }
 
 TEST_CASE("Disk layer: particles beyond the largest point of the driver are drawn as well") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const Canvas canvas = blank_canvas(context->gl(), {1200, 1200});
   Snapshot snapshot = one_disk({0.5, 0.5}, 1.0);
   snapshot.box = Vec2(10.0, 10.0);
@@ -124,7 +124,7 @@ TEST_CASE("Disk layer: particles beyond the largest point of the driver are draw
 }
 
 TEST_CASE("Disk layer: a disk with its centre outside the picture shows its part inside") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Snapshot snapshot = one_disk({-5.0, 60.0}, 20.0);
   const Image image = draw(context->gl(), snapshot, kAlwaysPoints);
   CHECK(pixel(image, 1, 60) == kDarkTheme.disk);
@@ -132,7 +132,7 @@ TEST_CASE("Disk layer: a disk with its centre outside the picture shows its part
 }
 
 TEST_CASE("Disk layer: a disk on a periodic border is drawn on both sides of the box") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Snapshot snapshot = one_disk({2.0, 60.0}, 20.0);
   CHECK(pixel(draw(context->gl(), snapshot, kAlwaysPoints), 196, 60) == kDarkTheme.background);
   snapshot.walls[kLeft].reset();
@@ -148,7 +148,7 @@ TEST_CASE("Disk layer: a disk on a periodic border is drawn on both sides of the
 }
 
 TEST_CASE("Disk layer: a disk's colour shows its velocity") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const ColourScale scale{colour_map(Palette::Viridis)};
   Snapshot snapshot = one_disk({60.0, 60.0}, 40.0);
   snapshot.velocities = Vec2(0.3, 0.4);
@@ -162,7 +162,7 @@ TEST_CASE("Disk layer: a disk's colour shows its velocity") {
 }
 
 TEST_CASE("Disk layer: particles smaller than a pixel send the light of their area") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const Image image = draw(context->gl(), one_disk({60.5, 60.5}, 0.5), kAlwaysPoints);
   const double area = M_PI / 16.0;
   const auto light = [](std::uint8_t channel) { return linear_light(channel); };
@@ -203,7 +203,7 @@ std::array<double, 3> mean_colour(const Image& image) {
 TEST_CASE(
     "Disk layer: particles look the same on both sides of the radius below which they have no "
     "shape") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const double switch_over = 2.0 * Coverage::kLargestRadius;
   Snapshot snapshot = many_disks(switch_over);
   for (const ColourBy colour_by : {ColourBy::None, ColourBy::Speed}) {
@@ -220,7 +220,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Disk layer: small disks have the light of their shapes, drawn larger and averaged") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const Gl& gl = context->gl();
   for (const double diameter : {0.8, 1.5, 2.5}) {
     CAPTURE(diameter);

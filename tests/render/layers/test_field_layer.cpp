@@ -31,7 +31,7 @@ Image draw(const Gl& gl, const Vec2& box, std::vector<int> cells, std::vector<do
 }  // namespace
 
 TEST_CASE("Field layer: each cell has its colour up to its edges, and a gap is hatched") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const std::vector<double> values = {0.0, 0.2, 0.4, 0.6, std::nan(""), 1.0};
   const ColourScale scale{colour_map(Palette::Inferno)};
   const Image image = draw(context->gl(), {3.0, 2.0}, {3, 2}, values, FieldStyle::Cells);
@@ -51,7 +51,7 @@ TEST_CASE("Field layer: each cell has its colour up to its edges, and a gap is h
 }
 
 TEST_CASE("Field layer: a smooth field has no steps") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   std::vector<double> values;
   for (int i = 0; i < 24; ++i) values.push_back(i * 7 % 24 / 24.0);  // a cell is 10 pixels wide
   const auto largest_step = [&](FieldStyle style) {
@@ -67,7 +67,7 @@ TEST_CASE("Field layer: a smooth field has no steps") {
 }
 
 TEST_CASE("Field layer: a smooth field fades to the ground where it has no values") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   std::vector<double> values(60, std::nan(""));
   for (std::size_t row = 0; row < 6; ++row) values[10 * row] = values[10 * row + 1] = 1.0;
   const Image image = draw(context->gl(), {10.0, 6.0}, {10, 6}, values, FieldStyle::Smooth, false);
@@ -80,7 +80,7 @@ TEST_CASE("Field layer: a smooth field fades to the ground where it has no value
 }
 
 TEST_CASE("Field layer: a smooth field continues beyond a periodic border only") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   std::vector<double> values(24, 0.0);
   for (std::size_t row = 0; row < 4; ++row) values[6 * row] = 1.0;
   for (const bool periodic : {false, true}) {

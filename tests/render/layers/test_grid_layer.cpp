@@ -8,7 +8,7 @@ namespace clatter {
 TEST_CASE(
     "Grid layer: lines of the grid cross the box at equal distances from its corner, as long as "
     "the scale") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const Size size{240, 200};
   const Projection projection{{{10.0, 10.0}, 24.0}, size};  // 10 pixels a unit
   const Canvas canvas = blank_canvas(context->gl(), size);

@@ -7,7 +7,7 @@
 namespace clatter {
 
 TEST_CASE("Gui layer: shapes of Dear ImGui come out at their pixels, clipped") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const Canvas canvas = blank_canvas(context->gl(), {80, 60});
   GuiLayer layer(context->gl());
   ImGui::CreateContext();

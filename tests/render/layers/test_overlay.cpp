@@ -12,7 +12,7 @@
 namespace clatter {
 
 TEST_CASE("Overlay: it writes on pictures of any size, but not on the box or at the edge") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   for (Size size : {Size{1280, 720}, {1920, 1080}, {720, 720}, {640, 360}, {360, 640}}) {
     for (Vec2 box : {Vec2(20.0, 25.0), Vec2(60.0, 12.0), Vec2(20.0, 20.0)}) {
@@ -50,7 +50,7 @@ TEST_CASE("Overlay: it writes on pictures of any size, but not on the box or at 
 }
 
 TEST_CASE("Overlay: a heading above the box is as wide as the picture, one beside it is a column") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   const Size size{1280, 720};
   struct Heading {
@@ -93,7 +93,7 @@ TEST_CASE("Overlay: a heading above the box is as wide as the picture, one besid
 
 TEST_CASE(
     "Overlay: colour bars for which a small picture has no room stay out of the row of figures") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   const Size size{320, 240};
   constexpr int kRow = 28;  // height of figures and scale, with their distance from the edge
@@ -110,7 +110,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Overlay: a card covers the picture with its title, and fades out") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   const Snapshot snapshot = driven_box();
   for (const Size size : {Size{1280, 720}, {360, 640}}) {
@@ -144,7 +144,7 @@ TEST_CASE("Overlay: a card covers the picture with its title, and fades out") {
 }
 
 TEST_CASE("Overlay: the lines of a card are in the middle of the picture") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   const Size size{1280, 720};
   const Canvas canvas(context->gl(), size);
@@ -165,7 +165,7 @@ TEST_CASE("Overlay: the lines of a card are in the middle of the picture") {
 }
 
 TEST_CASE("Overlay: a card has its title in large letters above its caption, which is broken") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   const Size size{640, 360};
   const Canvas canvas(context->gl(), size);
@@ -201,7 +201,7 @@ TEST_CASE("Overlay: a card has its title in large letters above its caption, whi
 }
 
 TEST_CASE("Overlay: nothing shows through a card") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   const Size size{640, 360};
   OverlayText text = kText;
@@ -224,7 +224,7 @@ constexpr Size kEnlarged{1280, 720};
 
 // The differences of all pixels between a bright and a dark heatmap below the same overlay.
 std::vector<int> seen_through_overlay(const Camera& camera, const Vec2& box) {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   View view = view_with_field();
   view.range = {ColourRange::Given, {0.0, 4.0}};
   view.field_range = {ColourRange::Given, {0.0, 1.0}};
@@ -286,7 +286,7 @@ TEST_CASE("Overlay: a colour bar that the enlarged box covers in part is opaque"
 }
 
 TEST_CASE("Overlay: over a box of spheres texts are on a plate, and beside it they are not") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl(), 1, true);
   const Size size{1280, 720};
   Snapshot snapshot;
@@ -310,7 +310,7 @@ TEST_CASE("Overlay: over a box of spheres texts are on a plate, and beside it th
 }
 
 TEST_CASE("Overlay: two colour bars beside a box of spheres fill the height of the picture") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   const Size size{1280, 720};
   Snapshot snapshot;
@@ -351,7 +351,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Overlay: the captions of a time are over the lower part of the gas, on plates") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   Snapshot snapshot = driven_box();
   View view;
@@ -386,7 +386,7 @@ TEST_CASE("Overlay: the captions of a time are over the lower part of the gas, o
 
 TEST_CASE("Overlay: a view may hide each part, and the others stay at their places") {
   constexpr Size kSize{1280, 720};
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   Snapshot snapshot = driven_box();
   View view = view_with_field();

@@ -40,7 +40,7 @@ PlotPanel two_points(bool first_hollow, bool second_hollow) {
 }  // namespace
 
 TEST_CASE("Plot: points of a plot stand where their values are, and hollow ones are rings") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const Gl& gl = context->gl();
   const Mark low = mark_of(plotted(gl, {two_points(false, true)}));
   const Mark high = mark_of(plotted(gl, {two_points(true, false)}));
@@ -52,7 +52,7 @@ TEST_CASE("Plot: points of a plot stand where their values are, and hollow ones 
 }
 
 TEST_CASE("Plot: a plot has panels of the same axes, and none where there is nothing") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const Gl& gl = context->gl();
   const PlotPanel point{"", {{1.0, 1.0, "", false}}}, far{"", {{1e3, 1.0, "", false}}};
   // The point of the left panel is at its left side, because the axes extend to the point of the
@@ -66,7 +66,7 @@ TEST_CASE("Plot: a plot has panels of the same axes, and none where there is not
 }
 
 TEST_CASE("Plot: values along x stand apart over any number of decades") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const auto place = [&](double x) {
     const PlotPanel panel{"",
                           {{x, 1.0, "", false}, {1e7, 100.0, "", true}, {1.0, 100.0, "", true}}};
@@ -76,7 +76,7 @@ TEST_CASE("Plot: values along x stand apart over any number of decades") {
 }
 
 TEST_CASE("Plot: a point apart has no line, and a label keeps off a line") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const auto drawn = [&](const std::string& label, bool apart) {
     return plotted(
         context->gl(),
@@ -111,7 +111,7 @@ TEST_CASE("Plot: a point apart has no line, and a label keeps off a line") {
 }
 
 TEST_CASE("Similarity: it is less the more two pictures differ, and survives another size") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const Gl& gl = context->gl();
   const Image picture = plotted(gl, {two_points(false, true)});
   const Image other = plotted(gl, {two_points(true, false)});

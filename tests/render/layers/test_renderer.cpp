@@ -9,7 +9,7 @@
 namespace clatter {
 
 TEST_CASE("Renderer: a fixed range decides the colour, and the picture is opaque") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   Snapshot snapshot;
   snapshot.box = Vec2(10.0, 10.0);
@@ -25,7 +25,7 @@ TEST_CASE("Renderer: a fixed range decides the colour, and the picture is opaque
 }
 
 TEST_CASE("Renderer: a picture has room for a wall that swings out of the box") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   Snapshot snapshot = driven_box();
   snapshot.walls[kRight] = Wall{.kind = WallKind::Sinusoidal, .stroke = 6.0, .frequency = 1.0};
@@ -58,7 +58,7 @@ TEST_CASE("Renderer: a picture has room for a wall that swings out of the box") 
 }
 
 TEST_CASE("Renderer: spins are coloured by their sense") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   Snapshot snapshot;
   snapshot.box = Vec2(10.0, 10.0);
@@ -86,7 +86,7 @@ TEST_CASE("Renderer: spins are coloured by their sense") {
 }
 
 TEST_CASE("Renderer: arrows over the box have the length of their legend") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   Snapshot snapshot;
   snapshot.box = Vec2(10.0, 10.0);
@@ -108,7 +108,7 @@ TEST_CASE("Renderer: arrows over the box have the length of their legend") {
 }
 
 TEST_CASE("Renderer: a theme sets the colours, and a background of the view precedes it") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   Snapshot snapshot;
   snapshot.box = Vec2(10.0, 10.0);
@@ -138,7 +138,7 @@ TEST_CASE("Renderer: a theme sets the colours, and a background of the view prec
 }
 
 TEST_CASE("Renderer: a grid is drawn where it is asked for") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   Snapshot snapshot;
   snapshot.box = Vec2(10.0, 10.0);
@@ -152,7 +152,7 @@ TEST_CASE("Renderer: a grid is drawn where it is asked for") {
 }
 
 TEST_CASE("Renderer: a picture of several samples a pixel looks like the one of one sample") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   View view = view_with_field();
   view.grid = true;
   view.arrows = Quantity::Velocity;
@@ -178,7 +178,7 @@ TEST_CASE("Renderer: a picture of several samples a pixel looks like the one of 
 
 // Its samples are averaged in several groups of rows.
 TEST_CASE("Renderer: a large picture is whole, and a stop request ends it") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   View view;
   view.overlay = false;
   const auto drawn = [&](const StopRequest& stop) {
@@ -193,7 +193,7 @@ TEST_CASE("Renderer: a large picture is whole, and a stop request ends it") {
 }
 
 TEST_CASE("Renderer: blur, trails and marks look the same with several samples a pixel") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const Size size{1280, 720};
   View view;
   Snapshot snapshot = driven_box();
@@ -216,7 +216,7 @@ TEST_CASE("Renderer: blur, trails and marks look the same with several samples a
 }
 
 TEST_CASE("Renderer: the tracer has the colour of the letters, and its path is above the others") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   View view;
   view.colour_by = ColourBy::None;
   view.overlay = false;
@@ -279,7 +279,7 @@ View view_of_spheres() {
 }  // namespace
 
 TEST_CASE("Renderer: arrows of spheres have the length of their legend, and no sphere hides them") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   View view = view_of_spheres();
   Snapshot snapshot = spheres({{15.0, 15.0, 20.0}});
   snapshot.velocities.col(0) = Vec3(1.0, 0.0, 0.0);
@@ -307,7 +307,7 @@ TEST_CASE("Renderer: arrows of spheres have the length of their legend, and no s
 }
 
 TEST_CASE("Renderer: trails of spheres are as long as asked for, fade out, and may be hidden") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   View view = view_of_spheres();
   // The first sphere flew along x for two time units. The second is in front of its trail.
   Snapshot snapshot = spheres({{18.0, 15.0, 10.0}, {16.0, 15.0, 20.0}});
@@ -341,7 +341,7 @@ TEST_CASE("Renderer: trails of spheres are as long as asked for, fade out, and m
 }
 
 TEST_CASE("Renderer: an empty box is drawn too") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   Snapshot snapshot;
   snapshot.box = Vec2(10.0, 10.0);

@@ -46,7 +46,7 @@ Snapshot random_spheres(int count) {
 }
 
 Image draw(const Snapshot& snapshot, const Camera& camera, const View& view) {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
   const Canvas canvas(context->gl(), kSphereSize);
   canvas.bind();
@@ -234,7 +234,7 @@ View black_view() {
 }  // namespace
 
 TEST_CASE("Small spheres: they have the light of spheres with a shape, seen from far away") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Snapshot snapshot = random_spheres(30);
   snapshot.box *= 2.0;
   snapshot.positions *= 2.0;  // too far from each other for the shade of neighbours

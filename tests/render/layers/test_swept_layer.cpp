@@ -72,7 +72,7 @@ double off_instants(const Gl& gl, const Snapshot& blurred) {
 }  // namespace
 
 TEST_CASE("Swept layer: a disk at rest looks like a disk at an instant") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   DiskLayer layer(context->gl());
   for (const double diameter : {2.0, 3.5, 8.0, 40.0}) {
     CAPTURE(diameter);
@@ -87,7 +87,7 @@ TEST_CASE("Swept layer: a disk at rest looks like a disk at an instant") {
 }
 
 TEST_CASE("Swept layer: a moving disk keeps its area and its light") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   DiskLayer layer(context->gl());
   for (const double diameter : {2.0, 6.0, 30.0}) {
     for (const double length : {0.02, 0.5, 3.0, 25.0, 90.0}) {
@@ -110,7 +110,7 @@ TEST_CASE("Swept layer: a moving disk keeps its area and its light") {
 
 TEST_CASE(
     "Swept layer: at constant speed the opacity is the share of time in which a pixel is covered") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   DiskLayer layer(context->gl());
   constexpr double kLength = 80.0, kRadius = 15.0;
   const Vec2 start(60.0, 60.0);
@@ -128,7 +128,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Swept layer: paths with collisions and borders look like the average of instants") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   for (const double diameter : {2.0, 5.0, 30.0}) {
     CAPTURE(diameter);
     // Reflected off a wall with a gain, then on a parabola.

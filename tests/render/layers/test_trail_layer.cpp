@@ -19,7 +19,7 @@ Image drawn(const Gl& gl, const Snapshot& snapshot, double time) {
 }  // namespace
 
 TEST_CASE("Trail layer: trails follow the paths and fade out to their ends") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Snapshot snapshot = one_disk({120.0, 100.0}, 20.0);
   snapshot.velocities = Vec2(0.0, 40.0);
   // Along x, then up.

@@ -44,7 +44,7 @@ Camera camera_from(double azimuth, double elevation, double view_angle = 0.0) {
 
 Image draw_volume(const Snapshot& snapshot, const Camera& camera, const View& view, int samples = 1,
                   bool transparent = false) {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl(), samples, transparent);
   return draw(renderer, context->gl(), snapshot, camera, kVolumeSize, view);
 }

@@ -46,7 +46,7 @@ TEST_CASE("Wall colours: without a scale of speeds it is that of temperatures") 
 }
 
 TEST_CASE("Wall colours: a thermal wall keeps its colour while the gas heats") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   View view;
   view.overlay = false;
   view.range = {ColourRange::Given, {0.0, 3.0}};
@@ -56,7 +56,7 @@ TEST_CASE("Wall colours: a thermal wall keeps its colour while the gas heats") {
 }
 
 TEST_CASE("Wall colours: a cold wall is not red on any palette and in any theme") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   for (const Palette palette : {Palette::Viridis, Palette::Inferno, Palette::Cividis}) {
     for (const Theme theme : {Theme::Dark, Theme::Light, Theme::Projector}) {
       View view;

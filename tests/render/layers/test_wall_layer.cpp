@@ -31,7 +31,7 @@ Wall wall_of(WallKind kind) {
 }  // namespace
 
 TEST_CASE("Wall layer: a wall begins at the edge of the box and leaves the inside alone") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   for (WallKind kind : {WallKind::Static, WallKind::Driven, WallKind::Thermal}) {
     const Image image = draw(context->gl(), wall_of(kind));
     CHECK(difference(pixel(image, 49, 100), kDarkTheme.background) > 50);
@@ -43,7 +43,7 @@ TEST_CASE("Wall layer: a wall begins at the edge of the box and leaves the insid
 }
 
 TEST_CASE("Wall layer: only a driven wall's teeth move, at half its drive speed") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const Image start = draw(context->gl(), wall_of(WallKind::Driven));
   CHECK(difference(start, draw(context->gl(), wall_of(WallKind::Driven), 0.3)) > 50);
   // The teeth repeat every 0.75 thicknesses. At half the drive speed they move by this distance in
@@ -57,7 +57,7 @@ TEST_CASE("Wall layer: only a driven wall's teeth move, at half its drive speed"
 }
 
 TEST_CASE("Wall layer: a moving wall is drawn at its position, and covers the picture behind it") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   for (WallKind kind : {WallKind::Sawtooth, WallKind::Sinusoidal}) {
     for (double displacement : {-1.0, 0.0, 2.0, 3.0}) {  // 10 pixels each
       CAPTURE(displacement);
@@ -85,8 +85,9 @@ TEST_CASE("Wall layer: a moving wall is drawn at its position, and covers the pi
   }
 }
 
-TEST_CASE("Wall layer: a piston of any kind is drawn at its position, and covers the field behind") {
-  const auto context = open_context(Backend::Osmesa);
+TEST_CASE(
+    "Wall layer: a piston of any kind is drawn at its position, and covers the field behind") {
+  const auto context = open_context(Backend::Auto);
   for (WallKind kind : {WallKind::Static, WallKind::Driven, WallKind::Thermal}) {
     Snapshot snapshot;
     snapshot.box = Vec2(10.0, 10.0);
@@ -106,7 +107,7 @@ TEST_CASE("Wall layer: a piston of any kind is drawn at its position, and covers
 }
 
 TEST_CASE("Wall layer: a moving wall looks the same wherever it is") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const auto at = [&](double displacement) {
     Snapshot snapshot;
     snapshot.box = Vec2(10.0, 10.0);
@@ -128,7 +129,7 @@ TEST_CASE("Wall layer: a moving wall looks the same wherever it is") {
 
 TEST_CASE(
     "Wall layer: a line marks the place of a wall that has moved, as long as the box is wide") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Snapshot snapshot;
   snapshot.box = Vec2(10.0, 10.0);
   snapshot.walls.fill(wall_of(WallKind::Static));
@@ -147,7 +148,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Wall layer: the walls beside one that moves end at its face") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   Snapshot snapshot;
   snapshot.box = Vec2(10.0, 10.0);
   snapshot.walls.fill(wall_of(WallKind::Thermal));
@@ -164,13 +165,13 @@ TEST_CASE("Wall layer: the walls beside one that moves end at its face") {
 }
 
 TEST_CASE("Wall layer: a driven wall is warm") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const Colour driven = pixel(draw(context->gl(), wall_of(WallKind::Driven)), 49, 100);
   CHECK(driven.red > 2 * driven.blue);
 }
 
 TEST_CASE("Wall layer: a periodic border is a dashed line") {
-  const auto context = open_context(Backend::Osmesa);
+  const auto context = open_context(Backend::Auto);
   const Image image = draw(context->gl(), Wall{});
   int drawn = 0;
   for (int x = 50; x < 150; ++x) {
