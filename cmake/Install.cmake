@@ -76,9 +76,9 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# Libraries opened at run time. OSMesa draws without a display and without a driver.
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "libosmesa6")
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "ffmpeg, libegl1, libgl1, libgl1-mesa-dri")
+# Libraries opened at run time. EGL of Mesa draws without a display and without a graphics card.
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl1, libgl1-mesa-dri")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "ffmpeg, libgl1, libglx-mesa0")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3, python3-numpy")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
 "simulation of driven granular gases of hard disks

@@ -1,5 +1,5 @@
 # All dependencies come from the distribution. One error lists all missing libraries with their
-# packages, so that one call of the package manager installs them.
+# packages in Debian, so that one call of the package manager installs them.
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 
@@ -11,15 +11,14 @@ macro(need_module target module debian)
   endif()
 endmacro()
 macro(need_package name debian)
-  find_package(${name} QUIET)
+  find_package(${name} QUIET ${ARGN})
   if(NOT ${name}_FOUND)
     string(APPEND missing "\n  ${name}: apt install ${debian}")
   endif()
 endmacro()
-macro(need_header header debian)
-  string(MAKE_C_IDENTIFIER "HAVE_${header}" found)
-  find_path(${found} ${header} PATH_SUFFIXES imgui stb)
-  if(NOT ${found})
+macro(need_header variable header debian)
+  find_path(${variable} ${header} PATH_SUFFIXES stb)
+  if(NOT ${variable})
     string(APPEND missing "\n  ${header}: apt install ${debian}")
   endif()
 endmacro()
@@ -29,24 +28,23 @@ need_package(nlohmann_json nlohmann-json3-dev)
 need_package(CLI11 libcli11-dev)
 need_package(doctest doctest-dev)
 need_package(fmt libfmt-dev)
+# Some distributions have no file of pkg-config for HDF5, and Debian has variants, serial and with
+# MPI. CMake's own module knows them all.
+need_package(HDF5 libhdf5-dev COMPONENTS C CXX)
 need_module(TOMLPLUSPLUS tomlplusplus libtomlplusplus-dev)
 need_module(DEFLATE libdeflate libdeflate-dev)
 need_module(SPNG spng libspng-dev)
-need_module(HDF5 hdf5 libhdf5-dev)
 need_module(MPFR mpfr libmpfr-dev)
-need_module(IMGUI imgui libimgui-dev)
-need_module(STB stb libstb-dev)
 need_module(GLFW glfw3 libglfw3-dev)
 need_module(OPENAL openal libopenal-dev)
+need_header(STB_FOLDER stb_image_write.h libstb-dev)
 # The GL libraries are opened at run time. The build needs their headers only.
-need_header(GL/glcorearb.h libgl-dev)
-need_header(GL/osmesa.h libosmesa6-dev)
-need_header(EGL/egl.h libegl-dev)
-
-# pkg-config has only the C library.
-find_library(HDF5_CPP hdf5_cpp HINTS ${HDF5_LIBRARY_DIRS})
-if(NOT HDF5_CPP)
-  string(APPEND missing "\n  hdf5_cpp: apt install libhdf5-dev")
+need_header(GL_FOLDER GL/glcorearb.h libgl-dev)
+need_header(EGL_FOLDER EGL/egl.h libegl-dev)
+include(DearImGui)
+if(NOT TARGET imgui::imgui)
+  string(APPEND missing "\n  imgui: apt install libimgui-dev, or its sources: "
+                        "cmake --preset release -DCLATTER_IMGUI_SOURCES=FOLDER")
 endif()
 
 find_file(CLATTER_FONT DejaVuSans.ttf
@@ -60,3 +58,6 @@ if(missing)
   message(FATAL_ERROR "These packages are missing (./run build installs them on Debian and Ubuntu; "
                       "elsewhere look for packages of the same name):${missing}")
 endif()
+
+add_library(stb_header INTERFACE)
+target_include_directories(stb_header INTERFACE ${STB_FOLDER})

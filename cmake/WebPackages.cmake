@@ -78,7 +78,7 @@ header_library(fmt::fmt)
 target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
 header_library(nlohmann_json::nlohmann_json)
 header_library(doctest::doctest)
-header_library(PkgConfig::STB)
+header_library(stb_header)
 header_library(PkgConfig::TOMLPLUSPLUS)
 
 # Compiled as they are, without warnings.
@@ -103,4 +103,4 @@ file(CREATE_LINK ${imgui} ${web_headers}/imgui SYMBOLIC)
 compiled_library(web_imgui ${imgui} ${imgui}/imgui.cpp ${imgui}/imgui_draw.cpp
                  ${imgui}/imgui_tables.cpp ${imgui}/imgui_widgets.cpp)
 target_include_directories(web_imgui SYSTEM PUBLIC ${web_headers})
-add_library(PkgConfig::IMGUI ALIAS web_imgui)
+add_library(imgui::imgui ALIAS web_imgui)

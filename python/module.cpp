@@ -153,8 +153,8 @@ py::object events(Gas& gas, long count) {
   for (const auto& [name, unit, components, whole] : table.quantities) {
     const bool scalar = components.size() == 1 && components.front().empty();
     const char* const type = whole ? "i8" : "f8";
-    fields.append(scalar ? py::make_tuple(name, type)
-                         : py::make_tuple(name, type, py::make_tuple(components.size())));
+    const py::tuple vector = py::make_tuple(name, type, py::make_tuple(components.size()));
+    fields.append(scalar ? py::tuple(py::make_tuple(name, type)) : vector);
   }
   py::object array = py::module_::import("numpy").attr("empty")(rows, "dtype"_a = fields);
   py::ssize_t place = 0;
