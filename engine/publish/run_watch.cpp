@@ -127,10 +127,8 @@ template <int D>
 void RunWatch<D>::tell(Frame& frame, bool halted) {
   close_window();
   frame.tally = tally_;
-  frame.profile.reset();
-  if (profile_) frame.profile = profile_->profile();
-  frame.residuals.reset();
-  if (residuals_) frame.residuals = residuals_->profile();
+  frame.profile = profile_ ? std::optional(profile_->profile()) : std::nullopt;
+  frame.residuals = residuals_ ? std::optional(residuals_->profile()) : std::nullopt;
   frame.observables.reset();
   if (observables_ && profiled_ != Profiled::Nothing) {
     frame.observables = observables_->tables(halted);

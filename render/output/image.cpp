@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "engine/error.h"
+#include "engine/system/read_file.h"
 #include "engine/system/write_file.h"
 
 namespace {
@@ -151,8 +152,7 @@ bool is_whole_png(const std::filesystem::path& path) {
 
 std::optional<std::string> png_text(const std::filesystem::path& path, std::string_view keyword) {
   if (!is_png(path)) return std::nullopt;
-  const std::unique_ptr<std::FILE, decltype(&std::fclose)> file(std::fopen(path.c_str(), "rb"),
-                                                                std::fclose);
+  const CStream file(std::fopen(path.c_str(), "rb"));
   if (!file) return std::nullopt;
   for (PngText& text : texts_of(file.get(), path)) {
     if (text.keyword == keyword) return std::move(text.text);
