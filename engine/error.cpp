@@ -18,6 +18,7 @@ static std::string message(const Place& place, const std::string& what, const st
 
 UserError::UserError(const Place& place, const std::string& problem, const std::string& advice)
     : std::runtime_error(printable(message(place, problem, advice))),
+      place_(place),
       problem_(problem),
       advice_(advice) {}
 

@@ -19,12 +19,15 @@ class UserError : public std::runtime_error {
   /// `problem` describes the error and `advice` the fix; an empty advice is omitted.
   UserError(const Place& place, const std::string& problem, const std::string& advice);
 
+  /// The place.
+  const Place& place() const { return place_; }
   /// The problem, without the place.
   const std::string& problem() const { return problem_; }
   /// The fix; empty: none.
   const std::string& advice() const { return advice_; }
 
  private:
+  Place place_;
   std::string problem_;
   std::string advice_;
 };

@@ -7,6 +7,8 @@
 
 #include "app/results/gsd_reader.h"
 #include "app/results/h5md_reader.h"
+#include "app/results/isolated_hdf5.h"
+#include "engine/checkpoint/archive.h"
 #include "engine/error.h"
 #include "engine/physics/state.h"
 #include "engine/scene/text.h"
@@ -31,6 +33,33 @@ void require_unit_diameters(const std::filesystem::path& path,
     throw UserError({path.string()}, "a diameter is " + number_text(diameter) + " instead of 1",
                     "divide all lengths by the diameter");
   }
+}
+
+ParticleFrame h5md_frame(const std::filesystem::path& path, std::optional<std::size_t> wanted) {
+  const H5mdReader reader(path);
+  const std::size_t place = wanted.value_or(std::max<std::size_t>(reader.frames(), 1) - 1);
+  if (place >= reader.frames()) refuse_frame(path, reader.frames());
+  const std::size_t components = reader.components();
+  ParticleFrame frame;
+  frame.number = step_of(reader.step(place));
+  frame.time = reader.time(place);
+  frame.positions = vectors_of(reader.vectors("position", place), components);
+  frame.velocities = vectors_of(reader.vectors("velocity", place), components);
+  if (reader.has("image")) frame.images = vectors_of(reader.vectors("image", place), components);
+  if (components == 3 && reader.has("angular_velocity")) {
+    frame.spins = vectors_of(reader.vectors("angular_velocity", place), components);
+  }
+  if (reader.has("mass")) frame.masses = reader.numbers("mass", place);
+  if (reader.has("diameter")) require_unit_diameters(path, reader.numbers("diameter", place));
+  const std::vector<double> lengths = reader.box(place);
+  const std::vector<bool> periodic = reader.periodic();
+  frame.box.emplace();
+  for (std::size_t axis = 0; axis < components; ++axis) {
+    frame.box->lengths[axis] = lengths[axis];
+    frame.box->periodic[axis] = periodic[axis];
+  }
+  frame.dimension = is_flat(frame) ? 2 : 3;
+  return frame;
 }
 
 }  // namespace
@@ -94,29 +123,16 @@ ParticleFrame read_gsd_frame(const std::filesystem::path& path, std::optional<st
 
 ParticleFrame read_h5md_frame(const std::filesystem::path& path,
                               std::optional<std::size_t> wanted) {
-  const H5mdReader reader(path);
-  const std::size_t place = wanted.value_or(std::max<std::size_t>(reader.frames(), 1) - 1);
-  if (place >= reader.frames()) refuse_frame(path, reader.frames());
-  const std::size_t components = reader.components();
+  const std::string bytes = read_hdf5_apart(path, [&] {
+    ParticleFrame frame = h5md_frame(path, wanted);
+    ArchiveWriter writer;
+    writer(frame);
+    return writer.written();
+  });
   ParticleFrame frame;
-  frame.number = step_of(reader.step(place));
-  frame.time = reader.time(place);
-  frame.positions = vectors_of(reader.vectors("position", place), components);
-  frame.velocities = vectors_of(reader.vectors("velocity", place), components);
-  if (reader.has("image")) frame.images = vectors_of(reader.vectors("image", place), components);
-  if (components == 3 && reader.has("angular_velocity")) {
-    frame.spins = vectors_of(reader.vectors("angular_velocity", place), components);
-  }
-  if (reader.has("mass")) frame.masses = reader.numbers("mass", place);
-  if (reader.has("diameter")) require_unit_diameters(path, reader.numbers("diameter", place));
-  const std::vector<double> lengths = reader.box(place);
-  const std::vector<bool> periodic = reader.periodic();
-  frame.box.emplace();
-  for (std::size_t axis = 0; axis < components; ++axis) {
-    frame.box->lengths[axis] = lengths[axis];
-    frame.box->periodic[axis] = periodic[axis];
-  }
-  frame.dimension = is_flat(frame) ? 2 : 3;
+  ArchiveReader reader(bytes, path.string());
+  reader(frame);
+  reader.finish();
   return frame;
 }
 

@@ -9,6 +9,7 @@
 
 #include "app/results/growing_dataset.h"
 #include "app/results/h5md_reader.h"
+#include "app/results/isolated_hdf5.h"
 #include "app/results/three_axes.h"
 #include "engine/error.h"
 #include "engine/scene/field.h"
@@ -61,7 +62,10 @@ void restore_records(const std::filesystem::path& path, std::size_t particles, b
   const NewFile made = new_file_beside(target);
   if (!made.file) throw RunError("cannot write " + target.string() + ": " + std::strerror(errno));
   try {
-    copy_records(path, particles, spins, made.path);
+    read_hdf5_apart(path, [&] {
+      copy_records(path, particles, spins, made.path);
+      return std::string();
+    });
     rename_synced(made.path, target);
   } catch (...) {
     std::error_code ignored;

@@ -30,6 +30,19 @@ struct ParticleFrame {
   std::vector<double> masses;      ///< [N] equal; empty: the file has none
 };
 
+template <class Archive>
+void visit(Archive& io, ParticleBox& box) {
+  auto& [lengths, periodic] = box;
+  io(lengths, periodic);
+}
+
+template <class Archive>
+void visit(Archive& io, ParticleFrame& frame) {
+  auto& [dimension, number, time, box, inertia, positions, velocities, spins, images, masses] =
+      frame;
+  io(dimension, number, time, box, inertia, positions, velocities, spins, images, masses);
+}
+
 /// Whether a frame has disks: no position or velocity out of the plane z = 0. Without particles, it
 /// has disks if its box is absent or a layer at most one diameter deep.
 bool is_flat(const ParticleFrame& frame);

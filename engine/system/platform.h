@@ -40,6 +40,9 @@ struct Pipe {
 /// same moment may inherit the ends.
 std::optional<Pipe> make_pipe();
 
+/// Kills this child process when its parent ends. Plain: it runs to its own end.
+void end_with_parent();
+
 /// A name with which a child process can open this file while this process lives. Plain: `path`,
 /// which may meanwhile be another file.
 std::string name_while_open(const FileDescriptor& file, const std::string& path);

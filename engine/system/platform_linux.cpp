@@ -1,8 +1,10 @@
 #include <fcntl.h>
 #include <malloc.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <fstream>
 
 #include "engine/system/platform.h"
@@ -38,6 +40,10 @@ std::optional<Pipe> make_pipe() {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) return std::nullopt;
   return Pipe{FileDescriptor(ends[0]), FileDescriptor(ends[1])};
+}
+
+void end_with_parent() {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
 }
 
 std::string name_while_open(const FileDescriptor& file, const std::string&) {
