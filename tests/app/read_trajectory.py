@@ -43,7 +43,7 @@ def read_dump(file):
 
 def read_gsd(file):
     """The frames, after a check that a reader in C, one in Python and MDAnalysis agree."""
-    with gsd.hoomd.open(file, "rb") as trajectory, open(file, "rb") as stream:
+    with gsd.hoomd.open(file) as trajectory, open(file, "rb") as stream:
         layer = trajectory.file
         assert layer.schema == "hoomd" and layer.schema_version == (1, 4)
         assert layer.gsd_version == (2, 0) and layer.application.startswith("clatter ")

@@ -12,17 +12,21 @@ velocity = numpy.array([[1, 0, 0.5], [0, 2, 0]])
 box = numpy.array([6.0, 5.0, 4.0])
 gsd_file, h5md_file, heavy_gsd_file, heavy_h5md_file, huge_file = sys.argv[1:]
 
-frame = gsd.hoomd.Snapshot()
+# gsd 3 has other names for frames and modes than gsd 2.
+new_names = hasattr(gsd.hoomd, "Frame")
+mode = "w" if new_names else "wb"
+
+frame = gsd.hoomd.Frame() if new_names else gsd.hoomd.Snapshot()
 frame.configuration.box = [*box, 0, 0, 0]
 frame.particles.N = 2
 frame.particles.position = position - box / 2
 frame.particles.velocity = velocity
-with gsd.hoomd.open(gsd_file, "wb") as file:
+with gsd.hoomd.open(gsd_file, mode) as file:
     file.append(frame)
     frame.configuration.step = 7
     file.append(frame)
 frame.particles.mass = [1, 2.5]
-with gsd.hoomd.open(heavy_gsd_file, "wb") as file:
+with gsd.hoomd.open(heavy_gsd_file, mode) as file:
     file.append(frame)
 
 
