@@ -83,6 +83,13 @@ static bool reset_button() {
   return clicked;
 }
 
+// Whether the last press of the mouse was on the last widget.
+static bool pressed_in_last_item() {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const ImVec2 press = ImGui::GetIO().MouseClickedPos[ImGuiMouseButton_Left];
+  return press.x >= low.x && press.x < high.x && press.y >= low.y && press.y < high.y;
+}
+
 // Name and symbol at the left of a line, value with its unit at its right, with room for the arrow.
 // Symbol and unit are only in the tooltip if they have no room. Returns true if the value was
 // clicked.
@@ -103,8 +110,10 @@ static bool headline(const Slider& slider, double value) {
   if (fits(unit)) text += unit;
   ImGui::SameLine(right - ImGui::CalcTextSize(text.c_str()).x);
   ImGui::TextUnformatted(text.c_str());
-  if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_TextInput);
-  return ImGui::IsItemClicked();
+  if (!ImGui::IsItemHovered()) return false;
+  ImGui::SetMouseCursor(ImGuiMouseCursor_TextInput);
+  // At the release: a press on a panel takes the focus from all widgets.
+  return ImGui::IsMouseReleased(ImGuiMouseButton_Left) && pressed_in_last_item();
 }
 
 // Rounds to three digits, the resolution of dragging.

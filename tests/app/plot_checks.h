@@ -68,7 +68,7 @@ inline void check_axes(const LivePlot& plot, const char* x, const char* y, bool 
   CHECK(plot.log_y == log_y);
 }
 
-inline const Curve& curve_of(const LivePlot& plot, std::string_view name) {
+inline const Curve& curve_of(const LivePlot& plot, const std::string& name) {
   for (const Curve& curve : plot.curves) {
     if (curve.name == name) return curve;
   }

@@ -69,7 +69,7 @@ TEST_CASE("Bench: the table of fields has a row for each estimator and one for t
 
 namespace {
 
-const json& dial_of(const json& table, std::string_view name) {
+const json& dial_of(const json& table, const std::string& name) {
   for (const json& dial : table.at("dials")) {
     if (dial.at("dial") == name) return dial.at("settings");
   }
