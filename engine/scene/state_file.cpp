@@ -56,9 +56,9 @@ std::string_view trimmed(std::string_view text) {
 /// The number with three digits, for a message.
 std::string three_digits(double number) {
   std::array<char, 32> digits;
-  const auto [end, error] =
-      std::to_chars(digits.begin(), digits.end(), number, std::chars_format::general, 3);
-  return std::string(digits.begin(), end);
+  const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), number,
+                                          std::chars_format::general, 3);
+  return std::string(digits.data(), end);
 }
 
 /// Text between two commas, without surrounding blanks.
