@@ -84,12 +84,6 @@ inline to_chars_result to_chars(char* first, char* last, double value) {
   if (size > static_cast<size_t>(last - first)) return {last, errc::value_too_large};
   return {end, errc()};
 }
-
-inline to_chars_result to_chars(char* first, char* last, double value, chars_format, int digits) {
-  const auto [end, size] = fmt::format_to_n(first, last - first, "{:.{}g}", value, digits);
-  if (size > static_cast<size_t>(last - first)) return {last, errc::value_too_large};
-  return {end, errc()};
-}
 }  // namespace std
 
 #endif
