@@ -19,18 +19,35 @@ function(link_header path debian)
   file(MAKE_DIRECTORY ${web_headers}/${arg_INTO})
   file(CREATE_LINK /usr/include/${path} ${web_headers}/${arg_INTO}/${name} SYMBOLIC)
 endfunction()
-link_header(concepts librange-v3-dev)
 link_header(doctest doctest-dev)
 link_header(eigen3/Eigen libeigen3-dev)
-link_header(fast_float libfast-float-dev)
 link_header(fmt libfmt-dev)
-link_header(meta librange-v3-dev)
 link_header(nlohmann nlohmann-json3-dev)
-link_header(range librange-v3-dev)
 link_header(stb/stb_image_write.h libstb-dev)
-link_header(std librange-v3-dev)
 link_header(toml++ libtomlplusplus-dev)
 link_header(GL/glcorearb.h libgl-dev INTO GL)
+
+# Libraries for the parts that cmake/web/libcxx.h adds to an older standard library.
+include(CheckCXXSourceCompiles)
+set(CMAKE_REQUIRED_FLAGS -std=c++20)
+check_cxx_source_compiles("#include <version>
+                           #ifndef __cpp_lib_ranges
+                           #error
+                           #endif" CLATTER_WEB_RANGES)
+check_cxx_source_compiles("#include <charconv>
+                           const char text[] = {'1'};
+                           double value;
+                           auto result = std::from_chars(text, text + 1, value);"
+                          CLATTER_WEB_FROM_CHARS)
+unset(CMAKE_REQUIRED_FLAGS)
+if(NOT CLATTER_WEB_RANGES)
+  foreach(folder concepts meta range std)
+    link_header(${folder} librange-v3-dev)
+  endforeach()
+endif()
+if(NOT CLATTER_WEB_FROM_CHARS)
+  link_header(fast_float libfast-float-dev)
+endif()
 
 function(find_source variable package file)
   file(GLOB found ${CLATTER_WEB_SOURCES}/${package}-*/${file})

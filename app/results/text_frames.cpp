@@ -69,8 +69,9 @@ class Lines {
   double number(std::string_view word) const {
     if (word.starts_with('+')) word.remove_prefix(1);
     double number = 0.0;
-    const auto [stopped, error] = std::from_chars(word.begin(), word.end(), number);
-    if (error == std::errc() && stopped == word.end() && std::isfinite(number)) return number;
+    const char* const end = word.data() + word.size();
+    const auto [stopped, error] = std::from_chars(word.data(), end, number);
+    if (error == std::errc() && stopped == end && std::isfinite(number)) return number;
     refuse(in_quotes(word.substr(0, 40)) + " is no finite number", "write, say, -0.25 or 1.5e-3");
   }
   std::size_t count(std::string_view word) const {

@@ -227,9 +227,8 @@ class FieldGrid {
   std::size_t folded(int axis, std::int64_t cell) const {
     const std::int64_t n = cells_[axis];
     if (cell >= 0 && cell < n) return static_cast<std::size_t>(cell);
-    const std::int64_t inside =
-        periodic_[axis] ? ((cell % n) + n) % n : std::clamp<std::int64_t>(cell, 0, n - 1);
-    return static_cast<std::size_t>(inside);
+    if (!periodic_[axis]) return cell < 0 ? 0 : static_cast<std::size_t>(n - 1);
+    return static_cast<std::size_t>(((cell % n) + n) % n);
   }
 
   Vec<D> box_;

@@ -1,5 +1,7 @@
 #include "engine/scene/state_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -51,14 +53,6 @@ std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(kBlanks);
   if (first == text.npos) return {};
   return text.substr(first, text.find_last_not_of(kBlanks) + 1 - first);
-}
-
-/// The number with three digits, for a message.
-std::string three_digits(double number) {
-  std::array<char, 32> digits;
-  const auto [end, error] =
-      std::to_chars(digits.begin(), digits.end(), number, std::chars_format::general, 3);
-  return std::string(digits.begin(), end);
 }
 
 /// Text between two commas, without surrounding blanks.
@@ -248,9 +242,8 @@ template <int D>
 void Reader<D>::refuse_pair(std::size_t a, std::size_t b, double distance) const {
   const auto [first, second] = std::minmax(particle_lines_[a], particle_lines_[b]);
   throw UserError({file_, second, 1},
-                  "the particles of lines " + std::to_string(first) + " and " +
-                      std::to_string(second) + " overlap by " + three_digits(1.0 - distance) +
-                      " diameters",
+                  fmt::format("the particles of lines {} and {} overlap by {:.3g} diameters", first,
+                              second, 1.0 - distance),
                   "move them apart, or remove one");
 }
 

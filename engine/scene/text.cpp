@@ -12,8 +12,8 @@ namespace clatter {
 
 std::string number_text(double number) {
   std::array<char, 32> digits;
-  const auto [end, error] = std::to_chars(digits.begin(), digits.end(), number);
-  return std::string(digits.begin(), end);
+  const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), number);
+  return std::string(digits.data(), end);
 }
 
 std::string in_quotes(std::string_view text) {
