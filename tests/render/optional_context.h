@@ -16,7 +16,7 @@ inline std::unique_ptr<GlContext> open_or_skip(Backend backend) {
   try {
     return open_context(backend);
   } catch (const RunError& error) {
-    MESSAGE("[skipped] " << error.what());
+    MESSAGE("[skipped] " << std::string(error.what()));
     return nullptr;
   }
 }
@@ -27,7 +27,7 @@ inline std::unique_ptr<GlContext> open_es_context() {
   try {
     return std::make_unique<EglContext>(Api::Es);
   } catch (const RunError& error) {
-    MESSAGE("[skipped] " << error.what());
+    MESSAGE("[skipped] " << std::string(error.what()));
     return nullptr;
   }
 }
