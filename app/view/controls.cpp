@@ -219,7 +219,10 @@ Controls::Moved Controls::draw(const Slider& slider, double& value, double usual
   ImGui::PopStyleVar();
   io.KeyCtrl = ctrl;
   moved.taken = ImGui::IsItemActivated();
-  if (moved.taken) before_ = was;
+  if (moved.taken) {
+    before_ = was;
+    cancelled_ = false;
+  }
   if (typing) {
     // The number counts once it is complete.
     typed_.reset();
@@ -233,7 +236,7 @@ Controls::Moved Controls::draw(const Slider& slider, double& value, double usual
   moved.changed = moved.changed && ImGui::IsMouseDragging(ImGuiMouseButton_Left, kDrag);
   if (!moved.changed) value = was;
   if (ImGui::IsItemDeactivatedAfterEdit()) {
-    if (typed_) value = limited(slider, *typed_);
+    if (typed_ && !cancelled_) value = limited(slider, *typed_);
     typed_.reset();
     moved.changed = value != was;
     moved.let_go = true;
@@ -361,9 +364,15 @@ bool Controls::ends(const char* key, const char* help, std::array<double, 2>& en
   std::array<double, 2> typed = ends;
   ImGui::PushID(key);
   ImGui::SetNextItemWidth(-FLT_MIN);
-  ImGui::InputScalarN("##ends", ImGuiDataType_Double, typed.data(), 2, nullptr, nullptr, "%.4g",
-                      ImGuiInputTextFlags_EnterReturnsTrue);
-  const bool changed = typed != ends && typed[0] < typed[1];
+  if (ImGui::InputScalarN("##ends", ImGuiDataType_Double, typed.data(), 2, nullptr, nullptr,
+                          "%.4g")) {
+    typed_ends_ = typed;
+  }
+  // The numbers count once they are complete.
+  if (ImGui::IsItemActivated()) cancelled_ = false;
+  const bool complete = ImGui::IsItemDeactivatedAfterEdit() && !cancelled_;
+  if (complete) typed = typed_ends_;
+  const bool changed = complete && typed != ends && typed[0] < typed[1];
   log_place(key);
   tell_help(help);
   ImGui::PopID();

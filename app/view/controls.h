@@ -77,6 +77,8 @@ class Controls {
   /// changed.
   bool choice(const char* key, const char* name, const char* help,
               const std::vector<std::string>& words, int& chosen, int usual, bool grouped = false);
+  /// Gives up the number that is being typed. Not all versions of Dear ImGui restore it.
+  void cancel_typing() { cancelled_ = true; }
   /// Closes the open list of a choice.
   void close_list() { closes_list_ = true; }
   /// Two text fields for the ends of a range. Returns true if a new pair with ends[0] < ends[1] was
@@ -129,15 +131,17 @@ class Controls {
   ScriptLog& log_;
   std::optional<std::vector<std::string>> chosen_;  // absent: all controls are drawn
   std::vector<std::string> sliders_;                // names since the last take_sliders()
-  std::string revealed_;              // group that the next group() opens and scrolls to
-  std::vector<std::string> offered_;  // names asked of shows() since the last take_missing()
-  double before_ = 0.0;               // value at the start of the current drag
-  std::optional<double> typed_;       // number in the open text field, if it was edited
-  double held_ = 0.0;                 // pending value of the slider that is dragged
-  std::string holding_;               // name of that slider; empty: none
-  double set_at_ = 0.0;               // time of the last change by a drag, seconds
-  bool closes_list_ = false;          // whether the open list shall close
-  std::optional<View> shown_before_;  // view before the current drag
+  std::string revealed_;                   // group that the next group() opens and scrolls to
+  std::vector<std::string> offered_;       // names asked of shows() since the last take_missing()
+  double before_ = 0.0;                    // value at the start of the current drag
+  std::optional<double> typed_;            // number in the open text field, if it was edited
+  bool cancelled_ = false;                 // whether the number in the open text field was given up
+  std::array<double, 2> typed_ends_ = {};  // numbers of the last edited pair of text fields
+  double held_ = 0.0;                      // pending value of the slider that is dragged
+  std::string holding_;                    // name of that slider; empty: none
+  double set_at_ = 0.0;                    // time of the last change by a drag, seconds
+  bool closes_list_ = false;               // whether the open list shall close
+  std::optional<View> shown_before_;       // view before the current drag
 };
 
 /// Only the controls with the given names are drawn in its life, without headings.

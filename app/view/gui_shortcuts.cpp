@@ -174,8 +174,7 @@ void Gui::use_signs(const std::string& typed) {
 void Gui::close_something() {
   if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return controls_.close_list();
   if (session_.frame().opening && session_.frame().run > 0) return session_.cancel_open();
-  // Dear ImGui ends the typing of a number.
-  if (ImGui::GetIO().WantTextInput && !panels_.gallery) return;
+  if (ImGui::GetIO().WantTextInput && !panels_.gallery) return controls_.cancel_typing();
   for (bool* open : {&panels_.gallery, &panels_.help, &tools_.settings}) {
     if (std::exchange(*open, false)) return;
   }
