@@ -66,7 +66,8 @@ bool Gallery::draw_card(const Entry& entry, bool selected, Controls& controls) {
   ImGui::PopStyleColor();
   ImGui::PopTextWrapPos();
   ImGui::EndGroup();
-  ImGui::SetCursorPos(after);
+  // An item must end the card: a place alone does not enlarge the list.
+  ImGui::SetCursorPos(ImVec2(after.x, after.y - ImGui::GetStyle().ItemSpacing.y));
   ImGui::Dummy(ImVec2(0.0f, 0.0f));
   return clicked;
 }
