@@ -19,9 +19,9 @@ struct KeyPress {
 /// Whether a key presses again while it is held down: keys that step in time or in a list.
 bool repeats(const KeyPress& press);
 
-/// Key presses, typed signs, presses of the mouse and dropped files of a window, none of which is
-/// lost between two pictures. Dear ImGui 1.86 samples keys and mouse once per picture. Later
-/// versions spread them over several pictures.
+/// Keeps key presses, typed signs, presses of the mouse and dropped files of a window until its
+/// next picture. Dear ImGui 1.86 samples keys and mouse once per picture, and so misses short
+/// presses. Later versions spread them over several pictures.
 class WindowInput {
  public:
   /// Adds a key press.
