@@ -275,9 +275,9 @@ function on_key(event) {
 let typed = '';  // content of the invisible field that has been repeated
 
 // Browsers show the keyboard during a touch only, so pictures are drawn until the touched field of
-// the window has the focus.
+// the window has the focus: for the press, the release, the focus and the text field.
 function show_keyboard() {
-  const pictures = 3;
+  const pictures = 5;
   for (let k = 0; k < pictures; ++k) draw();
   if (!Module._clatter_wants_text()) return canvas.focus();
   keys.value = typed = ' '.repeat(100);  // for the key Backspace
