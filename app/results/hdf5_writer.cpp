@@ -55,10 +55,18 @@ void write_dataset(const H5::Group& group, const std::string& name, const std::s
   write_dataset(group, name, unit, values, {values.size()});
 }
 
+// Files in the oldest format of each object: all readers know it, and groups have no time of writing.
+// From HDF5 2.0 on, the library takes the format of version 1.8 without these bounds.
+static H5::FileAccPropList oldest_format() {
+  H5::FileAccPropList list;
+  list.setLibverBounds(H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST);
+  return list;
+}
+
 // The bytes of the file.
 static std::string image_of(const std::function<void(const H5::H5File&)>& fill) {
   constexpr std::size_t kGrowth = std::size_t{1} << 20;
-  H5::FileAccPropList in_memory;
+  H5::FileAccPropList in_memory = oldest_format();
   in_memory.setCore(kGrowth, false);
   H5::H5File file("measurement", H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, in_memory);
   fill(file);
@@ -100,7 +108,8 @@ void write_large_hdf5(const std::filesystem::path& path, std::uint64_t numbers,
   }
   try {
     H5::Exception::dontPrint();
-    H5::H5File file(made.path.string(), H5F_ACC_TRUNC);
+    H5::H5File file(made.path.string(), H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT,
+                    oldest_format());
     fill(file);
     file.close();
     rename_synced(made.path, target);
