@@ -64,11 +64,11 @@ void Gui::listen(bool on) {
 // Reads the scale of the window and loads the fonts for it.
 void Gui::begin() {
   const float size = std::round(letters() * kTextSize * host_.content_scale());
-  if (size != text_size_) {
-    text_size_ = size;
+  if (size != fonts_.unit()) {
     ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
     atlas.Clear();
-    ImGui::GetIO().FontDefault = add_fonts(atlas, size).text.face;
+    fonts_ = add_fonts(atlas, size);
+    ImGui::GetIO().FontDefault = fonts_.text.face;
     gui_.upload(atlas);
   }
   constexpr float kTarget = 44.0f;  // points that a finger hits
@@ -122,8 +122,8 @@ void Gui::draw() {
       constexpr double kLeast = 0.8;  // smallest text of the picture, in text sizes of the panels
       // Lecture mode has title and caption in a strip of their own.
       const bool heading = !panels_.lecture || panels_.panels;
-      viewport_.draw(session_.frame(), shown_view(), size, letters(), kLeast * text_size_, heading,
-                     titles_);
+      viewport_.draw(session_.frame(), shown_view(), size, letters(), kLeast * fonts_.unit(),
+                     heading, titles_);
     }
     viewport_.show(static_cast<int>(area_.low.x * scale_),
                    static_cast<int>((whole.y - area_.high.y) * scale_));

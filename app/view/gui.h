@@ -29,6 +29,7 @@
 #include "app/view/viewport.h"
 #include "app/view/wall_grip.h"
 #include "app/view/window_input.h"
+#include "render/layers/fonts.h"
 #include "render/layers/gui_layer.h"
 
 namespace clatter {
@@ -184,7 +185,7 @@ class Gui {
   std::optional<std::string> title_;              // of the window; absent: name of the program
   std::uint64_t drawn_views_ = 0;                 // Session::views() at the last picture
   bool told_gallery_ = false;                     // the script log has the gallery as open
-  float text_size_ = 0.0f;                        // size of the loaded fonts, pixels; 0: none
+  Fonts fonts_;                                   // that are loaded
   float scale_ = 1.0f;                            // pixels per window unit
   Area area_;                                     // area of the viewport
   double wanted_scale_ = 1.0, text_scale_ = 1.0;  // of the slider, and of the texts

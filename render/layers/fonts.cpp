@@ -1,5 +1,6 @@
 #include "render/layers/fonts.h"
 
+#include <algorithm>
 #include <cfloat>
 #include <cmath>
 #include <sstream>
@@ -18,30 +19,36 @@ constexpr float kEm = 2048.0f, kAscent = 1901.0f, kHeight = 2384.0f;
 constexpr ImWchar kGlyphs[] = {0x0020, 0x017f, 0x0370, 0x045f, 0x2009, 0x2027, 0x2070, 0x209c,
                                0x2190, 0x2199, 0x2200, 0x226b, 0x27e8, 0x27e9, 0};
 
-// Settings of all sizes. Versions of Dear ImGui have different usual numbers of samples per pixel.
-ImFontConfig sampled() {
+// Settings of a size. Versions of Dear ImGui have different usual numbers of samples per pixel.
+ImFontConfig sampled(float size) {
+  constexpr float kLarge = 64.0f;  // a third of a pixel is invisible in larger letters
   ImFontConfig config;
   config.FontDataOwnedByAtlas = false;
-  config.OversampleH = 3;
+  config.OversampleH = size < kLarge ? 3 : 1;
   config.OversampleV = 1;
   return config;
 }
 
-// Adds the embedded typeface in one size. The ranges must live until Build().
-Font add_size(ImFontAtlas& atlas, float size, const ImWchar* ranges) {
+using Letters = std::shared_ptr<const ImVector<ImWchar>>;
+
+// Adds the embedded typeface in one size. An atlas has all usual letters in sizes up to `kLargest`.
+// Larger ones are enlarged.
+Font add_size(ImFontAtlas& atlas, float size, const Letters& letters = {}) {
+  constexpr float kLargest = 160.0f;
+  const float drawn = letters ? size : std::min(size, kLargest);
   const std::string_view file = embedded_fonts().front().bytes;
-  const ImFontConfig config = sampled();
+  const ImFontConfig config = sampled(drawn);
   // The atlas requires a mutable pointer, but does not change the bytes.
   return {atlas.AddFontFromMemoryTTF(const_cast<char*>(file.data()), static_cast<int>(file.size()),
-                                     size, &config, ranges),
-          size};
+                                     drawn, &config, letters ? letters->Data : kGlyphs),
+          size, letters};
 }
 
-ImVector<ImWchar> ranges_of(const std::string& text) {
+Letters letters_of(const std::string& text) {
   ImFontGlyphRangesBuilder letters;
   letters.AddText(text.data(), text.data() + text.size());
-  ImVector<ImWchar> ranges;
-  letters.BuildRanges(&ranges);
+  const auto ranges = std::make_shared<ImVector<ImWchar>>();
+  letters.BuildRanges(ranges.get());
   return ranges;
 }
 
@@ -53,22 +60,20 @@ float Font::ascent() const {
 
 Fonts add_fonts(ImFontAtlas& atlas, float unit, const std::string& title) {
   Fonts fonts;
-  fonts.title = add_size(atlas, std::round(1.5f * unit), kGlyphs);
-  fonts.text = add_size(atlas, unit, kGlyphs);
-  fonts.small = add_size(atlas, std::round(0.85f * unit), kGlyphs);
-  // All glyphs in a large size would need a very large atlas.
-  const ImVector<ImWchar> letters = ranges_of(title + ' ');
-  fonts.card = add_size(atlas, std::round(3.0f * unit), letters.Data);
+  fonts.title = add_size(atlas, std::round(1.5f * unit));
+  fonts.text = add_size(atlas, unit);
+  fonts.small = add_size(atlas, std::round(0.85f * unit));
+  fonts.card = add_size(atlas, std::round(3.0f * unit), letters_of(title + ' '));
   atlas.Build();
   return fonts;
 }
 
 std::vector<Font> add_letters(ImFontAtlas& atlas, const std::string& text,
                               std::span<const double> sizes) {
-  const ImVector<ImWchar> letters = ranges_of(text + "? ");  // ? replaces letters that it lacks
+  const Letters letters = letters_of(text + "? ");  // ? replaces letters that it lacks
   std::vector<Font> fonts;
   for (const double size : sizes) {
-    fonts.push_back(add_size(atlas, static_cast<float>(kHeight / kEm * size), letters.Data));
+    fonts.push_back(add_size(atlas, static_cast<float>(kHeight / kEm * size), letters));
   }
   atlas.Build();
   return fonts;

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +16,9 @@ namespace clatter {
 struct Font {
   ImFont* face = nullptr;  ///< of an atlas, which owns it
   float size = 0.0f;       ///< height from the ascent to the descent, pixels
+  /// The letters that the face has, for Dear ImGui, which may read them as long as the atlas lives.
+  /// Absent: the usual ones.
+  std::shared_ptr<const ImVector<ImWchar>> letters = {};
 
   /// Distance of the baseline from the upper edge of the letters, pixels. Dear ImGui rounds it to
   /// the next larger whole number.

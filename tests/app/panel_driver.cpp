@@ -22,14 +22,15 @@ PanelDriver::PanelDriver(const Scene& scene, Panel panel)
   const CurrentContext current(context_.get());
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = ImVec2(kWidth, kHeight);
-  io.FontDefault = add_fonts(*io.Fonts, kTextSize).text.face;
+  fonts_ = add_fonts(*io.Fonts, kTextSize);
+  io.FontDefault = fonts_.text.face;
   io.ClipboardUserData = &text_;
   io.SetClipboardTextFn = [](void* text, const char* written) {
     *static_cast<std::string*>(text) = written;
   };
   apply_style(kTextSize, 0.0f, kDarkTheme);
   session_.open(scene, 1, false);
-  for (int picture = 0; picture < 3; ++picture) draw();
+  for (int picture = 0; picture < 2; ++picture) draw();
 }
 
 void PanelDriver::draw() {
@@ -75,7 +76,7 @@ void PanelDriver::point_at(float x, float y) {
     const CurrentContext current(context_.get());
     ImGui::GetIO().MousePos = ImVec2(x, y);
   }
-  for (int picture = 0; picture < 2; ++picture) draw();
+  for (int picture = 0; picture < 3; ++picture) draw();
 }
 
 void PanelDriver::drag(float x, float y, float to_x) {
@@ -90,7 +91,7 @@ void PanelDriver::drag(float x, float y, float to_x) {
   draw();
   point_at(to_x, y);
   press(false);
-  for (int picture = 0; picture < 2; ++picture) draw();
+  for (int picture = 0; picture < 3; ++picture) draw();
 }
 
 void PanelDriver::wait_for(const std::function<bool(const Frame&)>& holds) {

@@ -6,6 +6,7 @@
 
 #include "app/view/controls.h"
 #include "app/view/panel_visibility.h"
+#include "render/layers/fonts.h"
 #include "render/layers/gui_context.h"
 #include "tests/support/temporary_folder.h"
 
@@ -46,6 +47,7 @@ class PanelDriver {
   Session session_{worker_, log_};
   Controls controls_{session_, log_};
   GuiContext context_ = make_gui_context();
+  Fonts fonts_;
   Panel panel_;
   std::string text_;  // of the last frame
 };

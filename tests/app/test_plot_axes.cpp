@@ -40,7 +40,8 @@ class DrawnPlot {
     const CurrentContext current(context_.get());
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = ImVec2(400.0f, 400.0f);
-    io.FontDefault = add_fonts(*io.Fonts, 14.0f).text.face;
+    fonts_ = add_fonts(*io.Fonts, 14.0f);
+    io.FontDefault = fonts_.text.face;
     for (int picture = 0; picture < 2; ++picture) {
       ImGui::NewFrame();
       ImGui::SetNextWindowSize(io.DisplaySize);
@@ -84,6 +85,7 @@ class DrawnPlot {
   float legend() const { return text("mark").bottom + 4.0f; }
 
   GuiContext context_ = make_gui_context();
+  Fonts fonts_;
   std::vector<ImVec2> marks_;
 };
 
