@@ -49,7 +49,7 @@ static std::vector<const char*> with_commands(int argc, const char* const* argv,
 
 // The words of CLI11 for the number and the form of values, in those of the program.
 static std::string plain(std::string text) {
-  static const std::regex twice(": At Most 1 required but received (\\d+)$");
+  static const std::regex twice(": At [Mm]ost 1 required but received (\\d+)$");
   static const std::regex missing(": 1 required (.*) missing$");
   static const std::regex wrong("^Could not convert: (\\S+) = ([^]*)$");
   text = std::regex_replace(text, twice, " is given $1 times; give it once");
