@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "app/runs/picture_scene.h"
-#include "app/runs/regular_times.h"
+#include "engine/dynamics/regular_times.h"
 #include "engine/error.h"
 #include "engine/scene/scene_file.h"
 #include "python/gas.h"
@@ -179,7 +179,7 @@ py::array_t<unsigned char> draw_gas(Gas& gas, int width) {
 struct Frames {
   py::object gas;
   RegularTimes times;
-  long next = 0;
+  std::uint64_t next = 0;
   double until = 0.0;
 };
 

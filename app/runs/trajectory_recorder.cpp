@@ -73,7 +73,7 @@ TrajectoryRecorder<D>::TrajectoryRecorder(const std::filesystem::path& path, dou
                                  : "the trajectory of the checkpoint has no angular velocities",
                     "resume the run without changes of roughness, or without --trajectory");
   }
-  next_ = static_cast<long>(before.next);
+  next_ = before.next;
   open(simulation, before.bytes);
 }
 
@@ -85,7 +85,7 @@ void TrajectoryRecorder<D>::open(const Simulation<D>& simulation, std::uint64_t 
 
 template <int D>
 void TrajectoryRecorder<D>::add(const Simulation<D>& simulation) {
-  TrajectoryFrame<D> frame{.number = next_,
+  TrajectoryFrame<D> frame{.number = static_cast<long>(next_),
                            .time = simulation.time(),
                            .model = simulation.model(),
                            .state = simulation.state(),
@@ -104,8 +104,7 @@ void TrajectoryRecorder<D>::follow(Simulation<D>& next) {
 template <int D>
 std::string TrajectoryRecorder<D>::save() {
   file_->sync();
-  SavedTrajectory saved{every_, static_cast<std::uint64_t>(next_), file_->bytes(),
-                        static_cast<std::uint8_t>(format_), spins_};
+  SavedTrajectory saved{every_, next_, file_->bytes(), static_cast<std::uint8_t>(format_), spins_};
   ArchiveWriter writer;
   writer(saved, *images_);
   return writer.written();

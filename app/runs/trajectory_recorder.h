@@ -7,7 +7,7 @@
 #include <string>
 
 #include "app/results/trajectory_file.h"
-#include "app/runs/regular_times.h"
+#include "engine/dynamics/regular_times.h"
 #include "engine/dynamics/simulation.h"
 #include "engine/observables/periodic_images.h"
 
@@ -52,7 +52,7 @@ class TrajectoryRecorder {
   double every_;
   bool spins_;
   RegularTimes times_;
-  long next_ = 0;  // number of the next frame
+  std::uint64_t next_ = 0;  // number of the next frame
   std::optional<PeriodicImages<D>> images_;
   std::unique_ptr<TrajectoryFile<D>> file_;
 };

@@ -1,32 +1,11 @@
 #include "engine/dynamics/clock.h"
 
-#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 
 #include "engine/physics/fraction.h"
 
 namespace clatter {
-
-// Error-free sum (Knuth's TwoSum): high + low is exactly a + b.
-static LongTime two_sum(double a, double b) {
-  const double high = a + b;
-  const double b_part = high - a;
-  return {high, (a - (high - b_part)) + (b - b_part)};
-}
-
-// Error-free product (Dekker's, with Veltkamp's splitting): high + low is exactly a * b.
-static LongTime two_product(double a, double b) {
-  const auto split = [](double x) {
-    const double c = 134217729.0 * x;  // 2^27 + 1
-    const double high = c - (c - x);
-    return LongTime{high, x - high};
-  };
-  const LongTime x = split(a);
-  const LongTime y = split(b);
-  const double high = a * b;
-  return {high, ((x.high * y.high - high) + x.high * y.low + x.low * y.high) + x.low * y.low};
-}
 
 void Clock::advance(double shift) {
   const LongTime sum = two_sum(base_.high, shift);
@@ -44,13 +23,9 @@ double Clock::relative(double absolute) const {
   return difference.high + (difference.low - base_.low);
 }
 
-double Clock::relative(double start, std::uint64_t count, double interval) const {
-  // The splitting overflows beyond 1e300. No run reaches the end of so long an interval.
-  constexpr double kLongest = 1e280;
-  const LongTime product = two_product(static_cast<double>(count), std::min(interval, kLongest));
-  const LongTime from_base = two_sum(start, -base_.high);
-  const LongTime sum = two_sum(from_base.high, product.high);
-  return sum.high + (sum.low + (from_base.low - base_.low + product.low));
+double Clock::relative(const LongTime& absolute) const {
+  const LongTime difference = two_sum(absolute.high, -base_.high);
+  return difference.high + (difference.low + (absolute.low - base_.low));
 }
 
 double Clock::periods(double frequency, double phase) const {

@@ -1,14 +1,8 @@
 #pragma once
 
-#include <cstdint>
+#include "engine/dynamics/long_time.h"
 
 namespace clatter {
-
-/// A simulation time as an unevaluated sum of two doubles, about 32 digits.
-struct LongTime {
-  double high = 0.0;
-  double low = 0.0;
-};
 
 /// Maps between simulation time and the moving base. The engine keeps event times on this base, so
 /// that an event at t = 1e9 is as precise as one at t = 0.
@@ -28,8 +22,8 @@ class Clock {
   double absolute(double relative) const;
   /// A simulation time on the base; infinite times stay infinite.
   double relative(double absolute) const;
-  /// start + count * interval on the base: the product is exact, however large the count.
-  double relative(double start, std::uint64_t count, double interval) const;
+  /// The same for a time with more digits.
+  double relative(const LongTime& absolute) const;
 
   /// Phase at the base, in periods, of a motion with `phase` at simulation time 0: the fractional
   /// part of frequency * base + phase, in [0,1). The product is exact for any number of periods.

@@ -136,10 +136,12 @@ Simulation<D>::Simulation(InParts, const Model<D>& model, RunState<D> saved)
     kicks_since_origin_ = 0;
   }
   preparation_ = std::make_unique<Preparation>(Preparation{std::move(saved), {}});
+      kick_times_(kick_origin_, kick_interval<D>(model_)),
 }
 
 template <int D>
 bool Simulation<D>::prepare(const StopRequest& pause) {
+    kick_times_ = RegularTimes(kick_origin_, kick_interval<D>(model_));
   if (!preparation_) return true;
   auto& [saved, work] = *preparation_;
   if (!loop_.place(work, pause) || !loop_.compare(work, pause)) return false;
@@ -301,7 +303,7 @@ bool Simulation<D>::run_until(double time, std::uint64_t collisions, std::uint64
   while (!stop_request.made()) {
     const double end = clock_.relative(time);
     Timer* timer = due_timer(end);
-    double stop = timer ? clock_.relative(timer->start, timer->count, timer->interval) : end;
+    double stop = timer ? clock_.relative(timer->times.exactly(timer->count)) : end;
     const double kick_time = next_kick();
     const bool kicks = kick_time < kNever && kick_time <= stop;
     if (kicks) stop = kick_time;
@@ -369,15 +371,15 @@ void Simulation<D>::move_piston(double position, double start, double end) {
 template <int D>
 void Simulation<D>::every(double start, double interval, std::function<void(double)> action,
                           std::uint64_t done) {
-  timers_.push_back({start, interval, done, std::move(action)});
+  timers_.push_back({RegularTimes(start, interval), done, std::move(action)});
 }
 
 template <int D>
 typename Simulation<D>::Timer* Simulation<D>::due_timer(double stop) {
   Timer* due = nullptr;
   for (Timer& timer : timers_) {
-    if (timer.interval == 0.0 && timer.count > 0) continue;
-    const double time = clock_.relative(timer.start, timer.count, timer.interval);
+    if (timer.times.interval() == 0.0 && timer.count > 0) continue;
+    const double time = clock_.relative(timer.times.exactly(timer.count));
     if (time > stop || (due && time == stop)) continue;
     stop = time;
     due = &timer;
@@ -387,15 +389,13 @@ typename Simulation<D>::Timer* Simulation<D>::due_timer(double stop) {
 
 template <int D>
 void Simulation<D>::fire(Timer& timer) {
-  const double time = timer.start + static_cast<double>(timer.count) * timer.interval;
-  ++timer.count;
-  timer.action(time);
+  timer.action(timer.times.of(timer.count++));
 }
 
 template <int D>
 double Simulation<D>::next_kick() const {
   if (!model_.bulk_drive) return kNever;
-  return clock_.relative(kick_origin_, kicks_since_origin_ + 1, model_.bulk_drive->interval);
+  return clock_.relative(kick_times_.exactly(kicks_since_origin_ + 1));
 }
 
 template <int D>

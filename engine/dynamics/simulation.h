@@ -13,6 +13,7 @@
 #include "engine/dynamics/foresight.h"
 #include "engine/dynamics/model.h"
 #include "engine/dynamics/observer.h"
+#include "engine/dynamics/regular_times.h"
 #include "engine/dynamics/run_state.h"
 #include "engine/stop_request.h"
 
@@ -126,8 +127,7 @@ class Simulation {
 
  private:
   struct Timer {
-    double start;
-    double interval;
+    RegularTimes times;
     std::uint64_t count;  // times it has fired
     std::function<void(double)> action;
   };
@@ -159,8 +159,9 @@ class Simulation {
   Model<D> model_;
   Clock clock_;
   Boundary<D> boundary_;
-  double start_speed_;  // see RunState
-  double kick_origin_;  // simulation time from which kicks are counted
+  double start_speed_;       // see RunState
+  double kick_origin_;       // simulation time from which kicks are counted
+  RegularTimes kick_times_;  // the first is the origin
   std::uint64_t kicks_since_origin_;
   std::deque<Timer> timers_;  // keep their addresses while an action adds timers
   EventLoop<D> loop_;

@@ -42,12 +42,12 @@ constexpr GalleryHash kGallery[] = {
     {"equilibrium.toml", 0x2f6ceb84347bc73e},
     {"heating_walls.toml", 0x940f2efa3bae110f},
     {"rough_cooling.toml", 0x668b837c3859e598},
-    {"rough_driven.toml", 0x7dbb87cc82f27096},
+    {"rough_driven.toml", 0xdc18b4f8fcead24e},
     {"shaker.toml", 0x96b5507643a1d9a1},
     {"spheres_cooling.toml", 0x5ba90370b9f0013e},
     {"spheres_leidenfrost.toml", 0x6fef7731f3481d13},
     {"spheres_rain.toml", 0x5c4e329e272ae706},
-    {"spheres_rough.toml", 0xa77a405468af94f0},
+    {"spheres_rough.toml", 0xb95c305d7392409d},
     {"spheres_vibrated.toml", 0xd726d2453464c7e9},
     {"vibrated.toml", 0x893fff2f2673d6a9},
 };
@@ -87,11 +87,11 @@ constexpr SceneHash kScenes[] = {
         gravity.acceleration = [0.0, -0.5]
         walls.bottom = { kind = "sawtooth", stroke = 0.5, frequency = 2.0, phase = 0.25 }
         walls.top = { kind = "sawtooth", stroke = 0.01, frequency = 50.0 })"},
-    {"kicks of motion and spin", 0x49859e2a5f9ccacb, R"(
+    {"kicks of motion and spin", 0x1d96a85bb5982905, R"(
         box.size = [16, 12]
         particles = { count = 80, restitution = 0.8, friction = 0.4 }
         bulk_drive = { interval = 0.05, kick_speed = 0.1, kick_spin = 0.2 })"},
-    {"all at once", 0x5977fdeddf43704e, R"(
+    {"all at once", 0x6664056c5cd8d7f0, R"(
         box.size = [16, 12]
         particles = { count = 80, restitution = 0.7, friction = 0.4, inertia = 0.4 }
         walls.left = { kind = "sinusoidal", stroke = 0.4, frequency = 1.0, phase = 0.125 }
@@ -131,7 +131,7 @@ constexpr SceneHash kScenes[] = {
         walls.top = { kind = "static" }
         walls.back = { kind = "thermal", temperature = 2.0 }
         walls.front = { kind = "driven", drive_speed = 1.0 })"},
-    {"rough spheres, kicked", 0x3f75e426cba24fbe, R"(
+    {"rough spheres, kicked", 0x701831f2781f0b5d, R"(
         box.size = [12, 9, 10]
         particles = { count = 150, tangential_restitution = 0.5, friction = 0.2 }
         bulk_drive = { interval = 0.05, kick_speed = 0.1, kick_spin = 0.2 })"},

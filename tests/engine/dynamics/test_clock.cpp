@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "engine/dynamics/clock.h"
+#include "engine/dynamics/regular_times.h"
 #include "engine/physics/random.h"
 
 using namespace clatter;
@@ -42,16 +43,14 @@ TEST_CASE("Clock: a time on the base is exact after many moves") {
   }
 }
 
-TEST_CASE("Clock: start + count * interval is exact up to 1e15 counts") {
-  // .1 is 0x1.999999999999ap-4 = tenth * 2^-56. The base is a multiple of 2^-40.
-  constexpr std::int64_t tenth = 0x1999999999999a;
-  REQUIRE(std::ldexp(static_cast<double>(tenth), -56) == 0.1);
+TEST_CASE("Clock: tenths of a time unit are exact up to 1e15 of them") {
+  // Whole numbers are multiples of 2^-56. The base is a multiple of 2^-40.
   Random random(53, Stream::Velocity, 0, 0);
   for (const std::uint64_t count :
        {1ull, 3ull, 12345ull, 987654321ull, 999999999999ull, 1000000000000000ull}) {
     for (const double start : {0.0, 0.5, 1e9}) {
-      const Integer exact_time =
-          static_cast<Integer>(tenth) * count + (static_cast<Integer>(std::ldexp(start, 20)) << 36);
+      const Integer tenths = (static_cast<Integer>(count) << 56) +
+                             ((static_cast<Integer>(std::ldexp(start, 20)) << 36) * 10);
       // A base at most 50 before this time.
       Clock clock(start);
       const double near = std::floor(0.1 * static_cast<double>(count));
@@ -60,9 +59,9 @@ TEST_CASE("Clock: start + count * interval is exact up to 1e15 counts") {
       clock.advance(-std::ldexp(static_cast<double>(below), -40));
       const Integer base = (static_cast<Integer>(std::ldexp(start, 20)) << 36) +
                            (static_cast<Integer>(near) << 56) - (static_cast<Integer>(below) << 16);
-      const double exact = std::ldexp(static_cast<double>(exact_time - base), -56);
-      const double got = clock.relative(start, count, 0.1);
-      CHECK(std::fabs(got - exact) <= 0x1p-53 * std::fabs(exact));
+      const long double exact = std::ldexp(static_cast<long double>(tenths - 10 * base) / 10, -56);
+      const double got = clock.relative(RegularTimes(start, 0.1).exactly(count));
+      CHECK(std::fabs(got - exact) <= 0x1.01p-53 * std::fabs(exact));
     }
   }
 }
@@ -72,9 +71,9 @@ TEST_CASE("Clock: an interval near the largest double has a start and no end") {
   clock.advance(0.1);
   for (const double interval : {1e280, 1e303, 1e308}) {
     CAPTURE(interval);
-    CHECK(clock.relative(9.0, 0, interval) == clock.relative(9.0));
-    CHECK(clock.relative(9.0, 1, interval) > 1e250);
-    CHECK(clock.relative(9.0, 1'000'000, interval) > 1e250);
+    CHECK(clock.relative(RegularTimes(9.0, interval).exactly(0)) == clock.relative(9.0));
+    CHECK(clock.relative(RegularTimes(9.0, interval).exactly(1)) > 1e250);
+    CHECK(clock.relative(RegularTimes(9.0, interval).exactly(1'000'000)) > 1e250);
   }
 }
 

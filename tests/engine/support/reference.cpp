@@ -148,7 +148,9 @@ void Reference<D>::hit_wall(const Event& event) {
 
 template <int D>
 double Reference<D>::next_kick() const {
-  return model_.bulk_drive ? clock_.relative(0.0, kicks_ + 1, model_.bulk_drive->interval) : kNever;
+  return model_.bulk_drive
+             ? clock_.relative(RegularTimes(model_.bulk_drive->interval).exactly(kicks_ + 1))
+             : kNever;
 }
 
 template <int D>
