@@ -65,7 +65,9 @@ LivePlot temperature_plot(const std::vector<Sample>& samples, const Scene& scene
   plot.curves.push_back(
       over_time("T", plain, samples, [](const Sample& s) { return s.temperature.mean(); }));
   plot.curves.back().compared = true;
-  if (scene.spins()) {
+  // Spins remain under smooth laws.
+  const auto spun = [](const Sample& sample) { return sample.spin_temperature > 0.0; };
+  if (scene.spins() || std::ranges::any_of(samples, spun)) {
     plot.curves.push_back(
         over_time("T_rot", kPurple, samples, [](const Sample& s) { return s.spin_temperature; }));
   }

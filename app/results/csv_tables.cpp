@@ -12,13 +12,13 @@
 namespace clatter {
 
 static std::string series_table(const Measured& measured) {
-  const std::vector<double>& spin = measured.series_spin_temperature;
+  const std::vector<double>& spin = measured.series.spin_temperature;
   std::string table = std::string("# units, ") + kUnits + "; time: t, temperature: m a^2/t^2";
   table += spin.empty() ? "\n" : ", spin_temperature: m a^2/t^2\n";
   table += spin.empty() ? "time,temperature\n" : "time,temperature,spin_temperature\n";
-  for (std::size_t k = 0; k < measured.series_time.size(); ++k) {
-    fmt::format_to(std::back_inserter(table), "{:.17g},{:.17g}", measured.series_time[k],
-                   measured.series_temperature[k]);
+  for (std::size_t k = 0; k < measured.series.times.size(); ++k) {
+    fmt::format_to(std::back_inserter(table), "{:.17g},{:.17g}", measured.series.times[k],
+                   measured.series.temperature[k]);
     if (!spin.empty()) fmt::format_to(std::back_inserter(table), ",{:.17g}", spin[k]);
     table += '\n';
   }

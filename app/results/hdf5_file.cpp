@@ -78,11 +78,11 @@ void write_object(const H5::Group& group, const Json& object) {
 }
 
 void write_series(const H5::Group& group, const Measured& measured) {
-  write_dataset(group, "time", "t", measured.series_time);
+  write_dataset(group, "time", "t", measured.series.times);
   const std::string unit = unit_of(Quantity::Temperature, 2);
-  write_dataset(group, "translational", unit, measured.series_temperature);
-  if (measured.series_spin_temperature.empty()) return;
-  write_dataset(group, "spin", unit, measured.series_spin_temperature);
+  write_dataset(group, "translational", unit, measured.series.temperature);
+  if (measured.series.spin_temperature.empty()) return;
+  write_dataset(group, "spin", unit, measured.series.spin_temperature);
 }
 
 void write_profile(const H5::Group& group, const Profile& profile) {

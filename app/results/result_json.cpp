@@ -100,8 +100,9 @@ Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<D>& si
   json["time"] = {{"burn_in", measured.burn_in}, {"measured", measured.duration}};
   json["events"] = {{"disk_disk", measured.pair_collisions},
                     {"disk_wall", measured.wall_collisions}};
-  if (scene.bulk_drive) json["events"]["kicks"] = measured.kicks;
-  if (scene.contact_time) json["events"]["elasticised"] = measured.elasticised;
+  if (scene.bulk_drive || measured.kicks > 0) json["events"]["kicks"] = measured.kicks;
+  const bool elasticises = scene.contact_time || measured.elasticised > 0;
+  if (elasticises) json["events"]["elasticised"] = measured.elasticised;
   // A run interrupted during the burn-in has no averages. A run without disks has none either.
   const bool averaged = measured.duration > 0.0;
   if (averaged) {
@@ -110,9 +111,10 @@ Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<D>& si
     }
     json["energy"]["ledger_residual"] = measured.ledger_residual;
   }
-  json["temperature_series"] = {{"time", measured.series_time},
-                                {"translational", measured.series_temperature}};
-  if (scene.spins()) json["temperature_series"]["spin"] = measured.series_spin_temperature;
+  json["temperature_series"] = {{"time", measured.series.times},
+                                {"translational", measured.series.temperature}};
+  if (simulation.model().spins)
+    json["temperature_series"]["spin"] = measured.series.spin_temperature;
   json["theory"] = theory_json(scene);
   if (measured.profile) json["profile"] = profile_json(*measured.profile);
   for (const ResultTable& table : measured.tables()) add_table(json, table);
@@ -120,7 +122,7 @@ Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<D>& si
   json["checks"] = {{"deepest_overlap", simulation.checks().deepest_overlap},
                     {"clock_steps_back", simulation.checks().clock_steps_back}};
   if (averaged) json["checks"]["temperature_drift"] = measured.temperature.drift;
-  if (scene.contact_time) {
+  if (elasticises) {
     const double collisions = std::max<double>(1.0, static_cast<double>(measured.pair_collisions));
     json["checks"]["elasticised_share"] = static_cast<double>(measured.elasticised) / collisions;
   }

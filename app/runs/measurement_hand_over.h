@@ -14,8 +14,8 @@ bool averages_go_on(const RunState<D>& saved, bool same_inertia, const Model<D>&
                     const Measure& measure);
 
 /// Hands a measurement up to the simulation time `end` over to the next simulation of its run,
-/// after a change of laws or a puff. Returns false if its averages restart, as they do with other
-/// particles.
+/// after a change of laws or a puff. Its series and energy balance continue. Returns false if its
+/// averages restart, as they do with other particles.
 template <int D>
 bool hand_over(std::optional<Measurement<D>>& measurement, const Simulation<D>& before,
                Simulation<D>& next, const Measure& measure, double end);

@@ -96,8 +96,8 @@ Measurement<D>& Run<D>::measure(double end) {
   return *measurement_;
 }
 
-// Whether particles spin at some time of the run.
-static bool ever_spins(const Scene& scene) {
+template <int D>
+bool Run<D>::ever_spins() const {
   constexpr double kForever = std::numeric_limits<double>::infinity();
   Schedule schedule(scene);
   bool spins = schedule.laws().spins();
@@ -116,9 +116,9 @@ void Run<D>::record(const std::filesystem::path& file, double every) {
                       file.string() + " exists, and the checkpoint has no trajectory",
                       "give another name, because this run would not continue the file");
     }
-    recorder_.emplace(file, every, ever_spins(scene_), simulation());
+    recorder_.emplace(file, every, ever_spins(), simulation());
   } else {
-    recorder_.emplace(file, every, ever_spins(scene_), simulation(), saved, resumed_->file);
+    recorder_.emplace(file, every, ever_spins(), simulation(), saved, resumed_->file);
   }
 }
 
@@ -127,7 +127,7 @@ void Run<D>::log_events(const std::filesystem::path& file, const EventSelection&
   run_->on_change = [this](Simulation<D>& next) { follow(next); };
   const std::string saved = resumed_ ? std::move(resumed_->checkpoint.events) : "";
   if (!saved.empty()) {
-    events_.emplace(file, selection, ever_spins(scene_), simulation(), saved, resumed_->file);
+    events_.emplace(file, selection, ever_spins(), simulation(), saved, resumed_->file);
     return;
   }
   std::error_code ignored;
@@ -137,7 +137,7 @@ void Run<D>::log_events(const std::filesystem::path& file, const EventSelection&
                     existing.string() + " exists, and the checkpoint has no event log",
                     "give another name, because this run would not continue the file");
   }
-  events_.emplace(file, selection, ever_spins(scene_), simulation());
+  events_.emplace(file, selection, ever_spins(), simulation());
 }
 
 template <int D>

@@ -98,6 +98,8 @@ class Run {
   void follow(Simulation<D>& next);
   void measure_on(Simulation<D>& next);
   void tell_new_averages() const;
+  // Whether particles have spins at some time of the run.
+  bool ever_spins() const;
   std::string how_to_resume() const;
   std::string finish_files();
 

@@ -20,14 +20,14 @@ struct Model {
   double restitution = 1.0;  ///< alpha of collisions between particles
   Roughness roughness;       ///< of the particles
   double inertia = 0.5;      ///< q = 4I/(m a^2)
-  bool spins = false;        ///< whether particles or walls are rough; then particles have spins
+  bool spins = false;        ///< whether particles have spins: they or walls are or were rough
   Vec<D> gravity = Vec<D>::Zero();      ///< acceleration of every particle
   std::optional<BulkDrive> bulk_drive;  ///< absent: none
   std::optional<double> contact_time;   ///< t_c of the TC model; absent: off
   std::uint64_t seed = 1;               ///< of every random number of the run
 
   /// Whether collisions of particles take energy from the gas.
-  bool dissipates() const { return restitution < 1.0 || roughness.any(); }
+  bool dissipates() const { return restitution < 1.0 || !roughness.conserves(); }
   /// Whether there is gravity, so that particles fly along parabolas.
   bool has_gravity() const { return (gravity.array() != 0.0).any(); }
   /// Whether the box is periodic along an axis.

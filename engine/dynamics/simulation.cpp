@@ -122,9 +122,16 @@ template <int D>
 Simulation<D>::Simulation(InParts, const Model<D>& model, State<D> state, double start_time)
     : Simulation(InParts(), model, fresh<D>(model, std::move(state), start_time)) {}
 
+// A smooth contact keeps spins, so particles keep them under smooth laws.
+template <int D>
+static Model<D> with_spins(Model<D> model, const RunState<D>& saved) {
+  model.spins = model.spins || !saved.spins.empty();
+  return model;
+}
+
 template <int D>
 Simulation<D>::Simulation(InParts, const Model<D>& model, RunState<D> saved)
-    : model_(model),
+    : model_(with_spins(model, saved)),
       clock_(saved.base),
       boundary_(model_, clock_, phase_shifts<D>(model_, saved), saved.piston),
       start_speed_(saved.start_speed),

@@ -26,6 +26,12 @@ static double windows_in(double span, double series_interval) {
   return std::clamp(std::ceil(span / series_interval), kMinWindows, kMaxWindows);
 }
 
+// The first time of a series at or after a time.
+static double series_start(double interval, double time) {
+  const RegularTimes times(interval);
+  return times.of(times.first_from(time));
+}
+
 template <int D>
 static IntVec<D> cells_of(const Measure& measure) {
   return Eigen::Map<const IntVec<D>>(measure.cells.data());
@@ -62,12 +68,9 @@ Measurement<D>::Measurement(Simulation<D>& simulation, const Measure& measure, d
       measure_(measure),
       balanced_(std::erase_if(measure_.fields, is_residual) > 0),
       totals_(simulation),
-      series_start_(std::ceil(simulation.time() / measure.series_interval) *
-                    measure.series_interval),
-      averages_start_(std::max(measure.burn_in, simulation.time())),
+      series_start_(series_start(measure.series_interval, simulation.time())),
       observables_(simulation, measure) {
-  const double span = end - averages_start_;
-  window_ = span / windows_in(span, measure.series_interval);
+  plan_averages(end);
   observe();
 }
 
@@ -78,13 +81,33 @@ Measurement<D>::Measurement(Simulation<D>& simulation, const Measure& measure, A
       balanced_(std::erase_if(measure_.fields, is_residual) > 0),
       totals_(simulation),
       observables_(simulation, measure) {
-  visit(saved);
+  visit_series(saved);
+  visit_averages(saved);
   if (started_) observables_.restore(saved);
   saved.finish();
   saved.require(window_ > 0.0 && !is_overdue());
-  // A change of laws may have added or removed spins: adds zeros, or removes the series.
-  series_spin_temperature_.resize(simulation.spins().empty() ? 0 : series_time_.size());
   observe();
+}
+
+template <int D>
+Measurement<D>::Measurement(Simulation<D>& simulation, const Measure& measure, double end,
+                            ArchiveReader saved)
+    : simulation_(simulation),
+      measure_(measure),
+      balanced_(std::erase_if(measure_.fields, is_residual) > 0),
+      totals_(simulation),
+      observables_(simulation, measure) {
+  visit_series(saved);
+  plan_averages(end);
+  saved.require(!is_overdue());
+  observe();
+}
+
+template <int D>
+void Measurement<D>::plan_averages(double end) {
+  averages_start_ = std::max(measure_.burn_in, simulation_.time());
+  const double span = end - averages_start_;
+  window_ = span / windows_in(span, measure_.series_interval);
 }
 
 // Whether a sample or the end of a window should have been long ago. A run would catch up with all
@@ -93,7 +116,7 @@ template <int D>
 bool Measurement<D>::is_overdue() const {
   constexpr double kLate = 1e-6;  // of the time
   const double windows = started_ ? static_cast<double>(windows_.size() + 1) : 0.0;
-  const double samples = static_cast<double>(series_time_.size());
+  const double samples = static_cast<double>(series_.times.size());
   const double next = std::min(averages_start_ + windows * window_,
                                series_start_ + samples * measure_.series_interval);
   return !(next >= simulation_.time() * (1.0 - kLate));
@@ -103,19 +126,28 @@ template <int D>
 std::string Measurement<D>::save() {
   if (!(window_ > 0.0)) return "";
   ArchiveWriter writer;
-  visit(writer);
+  visit_series(writer);
+  visit_averages(writer);
   if (started_) observables_.save(writer);
   return writer.written();
 }
 
 template <int D>
 template <class Archive>
-void Measurement<D>::visit(Archive& io) {
+void Measurement<D>::visit_series(Archive& io) {
+  io(totals_, series_start_, series_);
+  // A change of laws may have added spins.
+  if (!simulation_.spins().empty()) series_.spin_temperature.resize(series_.times.size());
+}
+
+// With visit_series(), all members that a checkpoint keeps.
+template <int D>
+template <class Archive>
+void Measurement<D>::visit_averages(Archive& io) {
   auto& [simulation, measure, balanced, totals, cells, balance, series_start, averages_start,
-         window, started, counts_at_start, windows, columns, parts, residuals, samples, series_time,
-         series_temperature, series_spin_temperature, observables] = *this;
-  io(totals, series_start, averages_start, window, started, counts_at_start, windows, columns,
-     parts, residuals, samples, series_time, series_temperature, series_spin_temperature);
+         window, started, counts_at_start, windows, columns, parts, residuals, samples, series,
+         observables] = *this;
+  io(averages_start, window, started, counts_at_start, windows, columns, parts, residuals, samples);
   if (started && !cells && !balance) open_cells();
   if (cells) io(*cells);
   if (balance) io(*balance);
@@ -127,7 +159,7 @@ void Measurement<D>::observe() {
   observe_cells();
   simulation_.every(
       series_start_, measure_.series_interval, [this](double time) { sample(time); },
-      series_time_.size());
+      series_.times.size());
   // Timers of samples come before timers of windows, so that a sample at a window's end belongs to
   // it.
   if (measure_.estimator == Estimator::Snapshot && !measure_.fields.empty()) {
@@ -148,13 +180,13 @@ void Measurement<D>::observe() {
 template <int D>
 void Measurement<D>::sample(double time) {
   const auto count = static_cast<double>(simulation_.particles().size());
-  series_time_.push_back(time);
+  series_.times.push_back(time);
   const auto per_component = [&](double energy, int components) {
     return count > 0.0 ? 2.0 * energy / (components * count) : 0.0;
   };
-  series_temperature_.push_back(per_component(simulation_.kinetic_energy(), D));
+  series_.temperature.push_back(per_component(simulation_.kinetic_energy(), D));
   if (!simulation_.spins().empty()) {
-    series_spin_temperature_.push_back(per_component(simulation_.spin_energy(), kSpinSize<D>));
+    series_.spin_temperature.push_back(per_component(simulation_.spin_energy(), kSpinSize<D>));
   }
 }
 
@@ -263,9 +295,7 @@ Measured Measurement<D>::means() const {
   const auto count = static_cast<double>(simulation_.particles().size());
   Measured measured;
   measured.burn_in = averages_start_;
-  measured.series_time = series_time_;
-  measured.series_temperature = series_temperature_;
-  measured.series_spin_temperature = series_spin_temperature_;
+  measured.series = series_;
   measured.ledger_residual = totals_.ledger_residual();
   measured.axis_temperatures.resize(D);
   measured.kurtosis_excess.resize(D);
@@ -294,16 +324,20 @@ Measured Measurement<D>::means() const {
   measured.collision_rate =
       estimate([&](const auto& w) { return 2.0 * w.collisions / (count * w.duration); });
   measured.dissipated = estimate([](const auto& w) { return w.dissipated / w.duration; });
-  if (model.bulk_drive) {
+  // Laws that have ended may have acted in some windows.
+  const auto occurred = [&](const auto& quantity) {
+    return std::ranges::any_of(windows_, [&](const auto& w) { return quantity(w) != 0.0; });
+  };
+  if (model.bulk_drive || measured.kicks > 0) {
     measured.bulk_in = estimate([](const auto& w) { return w.bulk_in / w.duration; });
   }
   if (counts.nudges > 0) {
     measured.nudges_in = estimate([](const auto& w) { return w.nudges_in / w.duration; });
   }
-  if (model.has_gravity()) {
+  if (model.has_gravity() || occurred([](const auto& w) { return w.gravity_in; })) {
     measured.gravity_in = estimate([](const auto& w) { return w.gravity_in / w.duration; });
   }
-  if (model.contact_time) {
+  if (model.contact_time || occurred([](const auto& w) { return w.undissipated; })) {
     double dissipated = 0.0, undissipated = 0.0;
     for (const WindowTotals<D>& window : windows_) {
       dissipated += window.dissipated;

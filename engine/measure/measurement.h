@@ -20,6 +20,20 @@
 
 namespace clatter {
 
+/// Temperatures at regular times.
+struct TemperatureSeries {
+  std::vector<double> times;             ///< multiples of series_interval
+  std::vector<double> temperature;       ///< T at those times
+  std::vector<double> spin_temperature;  ///< T_rot, 0 until something spins; empty without spins
+};
+
+/// Visits all members, in order, for checkpoints.
+template <class Archive>
+void visit(Archive& io, TemperatureSeries& series) {
+  auto& [times, temperature, spin_temperature] = series;
+  io(times, temperature, spin_temperature);
+}
+
 /// Results of a run, averaged over the time after the burn-in. Results that the scene cannot have
 /// are absent.
 struct Measured {
@@ -51,10 +65,8 @@ struct Measured {
   std::optional<Residuals> residuals;       ///< if residuals are requested
   std::optional<FieldMaps> maps;            ///< of all requested fields, over `duration`
   std::vector<FieldMaps> map_series;        ///< of averages, over parts of `duration`, see PartSums
-  std::vector<double> series_time;          ///< 0, series_interval, ...; burn-in included
-  std::vector<double> series_temperature;   ///< T at those times
-  std::vector<double> series_spin_temperature;  ///< T_rot; empty without spins
-  std::vector<ObservableResult> observables;    ///< one per requested observable
+  TemperatureSeries series;                 ///< over the whole run, burn-in included
+  std::vector<ObservableResult> observables;  ///< one per requested observable
 
   /// The tables of all observables; none without averages.
   std::vector<ResultTable> tables() const;
@@ -74,6 +86,9 @@ class Measurement {
   /// Continues a measurement from the result of save(). The run and the [measure] table must be the
   /// same. Windows keep their length; averages continue as long as the run.
   Measurement(Simulation<D>& simulation, const Measure& measure, ArchiveReader saved);
+  /// Continues the series and the energy balance of the result of save(). Averages restart, as in
+  /// the first constructor. The series interval must be the same.
+  Measurement(Simulation<D>& simulation, const Measure& measure, double end, ArchiveReader saved);
 
   /// The results up to the simulation's time. Throws Interrupted.
   Measured result(const StopRequest& stop = {});
@@ -86,16 +101,21 @@ class Measurement {
   /// Duration of the windows of averages.
   double window() const { return window_; }
 
+  /// Ends all flights for the energy balance, before another simulation begins them here.
+  void end_flights() { totals_.end_flights(); }
   /// All results up to the simulation's time, for a checkpoint; empty if the averages end where
   /// they begin, so that they cannot continue.
   std::string save();
 
  private:
+  void plan_averages(double end);
   bool is_overdue() const;
   void observe();
   void sample(double time);
   template <class Archive>
-  void visit(Archive& io);
+  void visit_series(Archive& io);
+  template <class Archive>
+  void visit_averages(Archive& io);
   void start();
   void open_cells();
   void observe_cells();
@@ -119,9 +139,7 @@ class Measurement {
   PartSums<CellSums> parts_;       // of the windows
   Residuals residuals_;
   std::uint64_t samples_ = 0;  // samples of the snapshot estimator so far
-  std::vector<double> series_time_;
-  std::vector<double> series_temperature_;
-  std::vector<double> series_spin_temperature_;
+  TemperatureSeries series_;
   Observables<D> observables_;
 };
 

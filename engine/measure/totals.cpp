@@ -24,6 +24,11 @@ double Totals<D>::energy_of_starts() const {
 }
 
 template <int D>
+double Totals<D>::inertia() const {
+  return moment_of_inertia(simulation_.model().inertia, simulation_.model().diameter);
+}
+
+template <int D>
 void Totals<D>::take_stock() {
   squares_.setZero();
   momentum_.setZero();
@@ -57,6 +62,14 @@ void Totals<D>::book(double gained) {
   booked_sizes_ += std::fabs(gained);
 }
 
+// The work of gravity on a flight over a distance.
+template <int D>
+void Totals<D>::book_work(const Vec<D>& distance) {
+  const double work = simulation_.model().gravity.dot(distance);
+  window_.gravity_in += work;
+  book(work);
+}
+
 // An event ends the particle's flight and changes its velocity and spin.
 template <int D>
 void Totals<D>::change(const ParticleChange<D>& particle, double time) {
@@ -65,9 +78,16 @@ void Totals<D>::change(const ParticleChange<D>& particle, double time) {
   squares_ += gain.momentum.cwiseProduct(gain.momentum + 2.0 * particle.velocity);
   momentum_ += gain.momentum;
   spin_squares_ += gain.spin.dot(gain.spin + 2.0 * particle.spin);
-  const double work = simulation_.model().gravity.dot(particle.position - particle.before.r);
-  window_.gravity_in += work;
-  book(work);
+  book_work(particle.position - particle.before.r);
+}
+
+template <int D>
+void Totals<D>::end_flights() {
+  const Vec<D>& gravity = simulation_.model().gravity;
+  const double now = simulation_.base_time();
+  for (const Particle<D>& particle : simulation_.particles()) {
+    book_work(particle.flight.at(now, gravity) - particle.flight.r);
+  }
 }
 
 template <int D>
@@ -77,7 +97,9 @@ void Totals<D>::on_collision(const PairCollision<D>& collision) {
   window_.elasticised += collision.elasticised;
   const double gained = collision.particles[0].energy() + collision.particles[1].energy();
   book(gained);
-  window_.dissipated -= gained;
+  // The gain of an elastic collision is a rounding error.
+  const bool elastic = collision.elasticised || !simulation_.model().dissipates();
+  if (!elastic) window_.dissipated -= gained;
   window_.undissipated += collision.undissipated;
   window_.virial += collision.particles[0].gain.momentum.dot(collision.separation);
 }
@@ -119,8 +141,8 @@ WindowTotals<D> Totals<D>::close_window() {
   }
   if (count > 0.0 && window_.duration > 0.0) {
     window_.temperature = integral_ / (window_.duration * count);
-    const double inertia = moment_of_inertia(model.inertia, model.diameter);
-    window_.spin_temperature = inertia * spin_integral_ / (window_.duration * count * kSpinSize<D>);
+    window_.spin_temperature =
+        inertia() * spin_integral_ / (window_.duration * count * kSpinSize<D>);
   }
   const WindowTotals<D> closed = window_;
   window_ = {};

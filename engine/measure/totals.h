@@ -52,6 +52,10 @@ class Totals : public Observer<D> {
   void on_kick(const Kick<D>& kick) override;
   void on_base_moved(double shift) override;
 
+  /// Books the work of gravity on all flights up to now. To be called only if another simulation
+  /// continues the run with flights that begin now.
+  void end_flights();
+
   /// The totals since the last call, or since the start.
   WindowTotals<D> close_window();
 
@@ -67,8 +71,10 @@ class Totals : public Observer<D> {
   void change(const ParticleChange<D>& particle, double time);
   void integrate_to(double time);
   double energy_of_starts() const;
+  double inertia() const;
   void take_stock();
   void book(double gained);
+  void book_work(const Vec<D>& distance);
 
   const Simulation<D>& simulation_;
   double energy_at_start_;
@@ -89,15 +95,12 @@ template <class Archive>
 void Totals<D>::visit(Archive& io) {
   auto& [simulation, energy_at_start, booked, booked_sizes, squares, momentum, spin_squares,
          integrated_to, window_start, integral, spin_integral, window] = *this;
-  const double energy_here = energy_of_starts();
-  double energy = energy_here;
-  io(energy, energy_at_start, booked, booked_sizes, squares, momentum, spin_squares, integrated_to,
+  const double inertia_here = inertia();
+  double inertia = inertia_here;
+  io(inertia, energy_at_start, booked, booked_sizes, squares, momentum, spin_squares, integrated_to,
      window_start, integral, spin_integral, window);
-  if (energy != energy_here) {
-    // A change of laws has added or removed spins.
-    energy_at_start += energy_here - energy;
-    take_stock();
-  }
+  // Under another moment of inertia the same spins have another energy.
+  energy_at_start += 0.5 * (inertia_here - inertia) * spin_squares;
 }
 
 extern template class Totals<2>;

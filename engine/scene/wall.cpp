@@ -1,5 +1,6 @@
 #include "engine/scene/wall.h"
 
+#include <cmath>
 #include <limits>
 
 #include "engine/physics/fraction.h"
@@ -18,6 +19,10 @@ double Roughness::tangential_restitution_in_force() const {
 
 bool Roughness::any() const {
   return friction_in_force() > 0.0 && tangential_restitution_in_force() > -1.0;
+}
+
+bool Roughness::conserves() const {
+  return !any() || (std::isinf(friction_in_force()) && tangential_restitution_in_force() == 1.0);
 }
 
 WallMotion Wall::motion() const {

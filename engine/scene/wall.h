@@ -17,6 +17,8 @@ struct Roughness {
   double tangential_restitution_in_force() const;
   /// Whether a contact can change a spin: mu > 0 and beta_0 > -1.
   bool any() const;
+  /// Whether every contact keeps the energy: nothing spins, or mu is infinite and beta_0 = 1.
+  bool conserves() const;
 };
 
 /// Action of a wall on particles (theory 4).

@@ -43,7 +43,7 @@ bool finite(const Measured& result) {
                         result.pressure[1], result.pressure[2], result.pressure[3]}) {
     all = all && (!e || finite(*e));
   }
-  for (const double t : result.series_temperature) all = all && std::isfinite(t);
+  for (const double t : result.series.temperature) all = all && std::isfinite(t);
   if (result.profile) {
     // Columns without particles have a density, but no temperature.
     const std::vector<Estimate>& density = result.profile->at(Quantity::Density);
@@ -125,15 +125,15 @@ TEST_CASE("Measurement: the series starts at 0 and holds the burn-in") {
   Measure measure = measure_for(2.0, 4.0);
   measure.series_interval = 0.75;
   const Measured result = measured(*simulation, measure);
-  REQUIRE(result.series_time.size() == 9);  // 0 to 6
-  REQUIRE(result.series_temperature.size() == 9);
+  REQUIRE(result.series.times.size() == 9);  // 0 to 6
+  REQUIRE(result.series.temperature.size() == 9);
   const auto again = simulation_of<2>(gas(10.0, 10.0, 10, 0.8), 43);
   for (std::size_t k = 0; k < 9; ++k) {
-    CHECK(result.series_time[k] == 0.75 * static_cast<double>(k));
-    again->run_until(result.series_time[k]);
-    CHECK(result.series_temperature[k] == again->kinetic_energy() / 10.0);
+    CHECK(result.series.times[k] == 0.75 * static_cast<double>(k));
+    again->run_until(result.series.times[k]);
+    CHECK(result.series.temperature[k] == again->kinetic_energy() / 10.0);
   }
-  CHECK(result.series_temperature.front() == doctest::Approx(1.0).epsilon(1e-14));
+  CHECK(result.series.temperature.front() == doctest::Approx(1.0).epsilon(1e-14));
 }
 
 TEST_CASE("Measurement: an interrupted run has its results so far") {
@@ -148,7 +148,7 @@ TEST_CASE("Measurement: an interrupted run has its results so far") {
   const Measured burning = measurement.result();
   CHECK(finite(burning));
   CHECK(burning.duration == 0.0);
-  CHECK(burning.series_time.size() == 6);
+  CHECK(burning.series.times.size() == 6);
   CHECK_FALSE(burning.profile);
 
   simulation->run_until(60.0, simulation->counts().collisions() + 150);  // halts at a collision
@@ -372,7 +372,7 @@ TEST_CASE("Measurement: a gas of none, and of one") {
       const Measured result = measured(*simulation, measure);
       CHECK(finite(result));
       CHECK(result.pair_collisions == 0);
-      CHECK(result.series_temperature.size() == 23);
+      CHECK(result.series.temperature.size() == 23);
       CHECK(result.collision_rate.mean == 0.0);
       CHECK_FALSE(result.compressibility);
       if (count == 1 && !walled) CHECK(result.temperature.mean == doctest::Approx(1.0));
