@@ -388,6 +388,7 @@ void require_bounded_samples(const Measure& spec, double begin, double end) {
 int measure(const MeasureOptions& options) {
   Scene scene = load(options.common, options.checkpoints.start_file());
   const double end = options.common.until.value_or(scene.measure.burn_in + scene.measure.duration);
+  const double burn_in = scene.measure.burn_in;
   fit_burn_in(scene.measure, end, options.common);
   std::optional<Resumed> resumed = resume(options.common, options.checkpoints, scene);
   if (resumed && !goes_on_to(end, *resumed)) {
@@ -395,6 +396,10 @@ int measure(const MeasureOptions& options) {
                     "the checkpoint is at t = " + number_text(resumed->time()) +
                         ", and the run ends at " + number_text(end),
                     "give a time after the checkpoint");
+  }
+  if (resumed && differs(*resumed, kBurnIn)) {
+    double& fitted = scene.measure.burn_in;
+    fitted = std::max(fitted, std::min(burn_in, resumed->time()));
   }
   require_bounded_samples(scene.measure, 0.0, end);
   if (!options.trajectory.empty() && end / options.every > kMaxSamples) {

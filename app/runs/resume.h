@@ -27,8 +27,12 @@ struct Resumed {
 std::optional<Resumed> resume(const CommonOptions& common, const CheckpointOptions& options,
                               Scene& scene);
 
-/// Throws UserError if [measure] of the scene differs from the averages in the checkpoint.
-void require_same_measure(const Resumed& resumed);
+/// Key of the time at which averages start.
+inline constexpr const char* kBurnIn = "measure.burn_in";
+
+/// Throws UserError if [measure] of the scene differs from the averages in the checkpoint. A run
+/// that is still within the burn-in of the scene may have had a shorter one.
+void require_same_measure(const Resumed& resumed, double burn_in);
 
 /// Whether [view] of the scene is that of the checkpoint. The speed may differ.
 bool has_same_view(const Resumed& resumed);

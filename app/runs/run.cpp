@@ -89,9 +89,15 @@ Measurement<D>& Run<D>::measure(double end) {
     if (resumed_) tell_new_averages();
     return *measurement_;
   }
-  require_same_measure(*resumed_);
+  require_same_measure(*resumed_, scene_.measure.burn_in);
   std::string& saved = resumed_->checkpoint.measurement;
-  measurement_.emplace(simulation(), scene_.measure, ArchiveReader(saved, resumed_->file));
+  const ArchiveReader reader(saved, resumed_->file);
+  // The last run ended within the burn-in, and began averages early.
+  if (differs(*resumed_, kBurnIn)) {
+    measurement_.emplace(simulation(), scene_.measure, end, reader);
+  } else {
+    measurement_.emplace(simulation(), scene_.measure, reader);
+  }
   saved.clear();
   return *measurement_;
 }
@@ -99,8 +105,8 @@ Measurement<D>& Run<D>::measure(double end) {
 template <int D>
 bool Run<D>::ever_spins() const {
   constexpr double kForever = std::numeric_limits<double>::infinity();
-  Schedule schedule(scene);
-  bool spins = schedule.laws().spins();
+  Schedule schedule(scene_);
+  bool spins = run_->simulation().model().spins || schedule.laws().spins();
   for (; schedule.next() < kForever; schedule.advance()) spins |= schedule.laws().spins();
   return spins || schedule.laws().spins();
 }

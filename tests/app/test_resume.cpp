@@ -202,6 +202,26 @@ TEST_CASE("Resume: a run that is continued for longer equals one long run") {
                 {"--until", "t = 60", "give a time after the checkpoint"});
 }
 
+TEST_CASE("Resume: legs that end within the burn-in lead to the averages of one run") {
+  const Shell shell;
+  shell.run("clatter check vibrated --set measure.burn_in=20 --set measure.duration=40 > s.toml");
+  const std::string line = "clatter measure s.toml --quiet ";
+  REQUIRE(shell.run(line + "--out whole.json").code == 0);
+  REQUIRE(shell.run(line + "--until 6 --out a.json --checkpoint c").code == 0);
+  REQUIRE(shell.run(line + "--until 13 --out b.json --resume c --checkpoint d").code == 0);
+  REQUIRE(shell.run(line + "--out resumed.json --resume d --checkpoint e").code == 0);
+  CHECK(result_of(shell, "resumed.json") == result_of(shell, "whole.json"));
+  // Legs have averages of their own.
+  CHECK(result_of(shell, "a.json").at("time").at("burn_in") == 2.0);
+  CHECK(result_of(shell, "b.json").at("time").at("burn_in") == 6.0);
+  CHECK(result_of(shell, "b.json").at("temperature_series").at("time").size() == 14);
+  // An interrupted leg continues with its own burn-in.
+  REQUIRE(shell.run(line + "--until 6 --out a2.json --resume c").code == 0);
+  CHECK(result_of(shell, "a2.json") == result_of(shell, "a.json"));
+  check_refused(shell, line + "--resume e --until 90 --set measure.burn_in=70",
+                {"e: ", "measure.burn_in", "--set measure.burn_in=20"});
+}
+
 TEST_CASE(
     "Resume: films continue from checkpoints of measurements, and measurements from those of "
     "films") {
