@@ -68,12 +68,13 @@ Run<D>::Run(const std::string& command, const Scene& scene, const CommonOptions&
     return;
   }
   auto& saved = std::get<RunState<D>>(resumed_->checkpoint.saved);
+  const std::string laws = changed_laws(*resumed_);
+  if (!laws.empty()) saved.watchdog.reset();
   run_.emplace(scene, seed_, saved, interrupted);
   averages_go_on_ = !resumed_->checkpoint.measurement.empty() &&
                     averages_go_on(saved, !differs(*resumed_, "particles.inertia"),
                                    simulation().model(), scene.measure);
   saved = {};  // frees memory
-  const std::string laws = changed_laws(*resumed_);
   if (!laws.empty() && !quiet_) {
     std::fprintf(stderr, "clatter: laws changed at t = %g: %s\n", simulation().time(),
                  laws.c_str());

@@ -42,18 +42,6 @@ static double helpful_contact_time(const Model<D>& model, const Watchdog& watchd
   return std::max(kShare * watchdog.mean_collision_time(), 10.0 * model.contact_time.value_or(0.0));
 }
 
-// Whether no collision can take energy from the gas.
-template <int D>
-static bool is_lossless(const Model<D>& model) {
-  bool lossless = !model.dissipates();
-  for (const auto& wall : model.walls) {
-    if (!wall) continue;
-    lossless = lossless && wall->kind != WallKind::Thermal && wall->restitution == 1.0 &&
-               !wall->roughness.any();
-  }
-  return lossless;
-}
-
 // Greatest speed that a wall's drive or motion gives to a particle at rest. Exact for driven walls
 // and the saw-tooth, approximate for sinusoidal walls.
 template <int D>
@@ -85,8 +73,9 @@ static double free_speed(const Model<D>& model) {
 }
 
 // Walls with restitution > 1 multiply speeds: beyond 1e60, products of speeds would soon overflow.
-// Walls that only add speed, in a gas without losses, make speeds grow as exp(t). The number of
-// collisions grows alike, and one more e-folding beyond kMaxGrowth costs a million of them.
+// Walls that only add speed, faster than it is lost, make speeds grow as exp(t). The number of
+// collisions grows alike, and one more e-folding beyond kMaxGrowth costs a million of them. Losses
+// could balance walls at such speeds only if they were a millionth of the energy of a particle.
 //
 // In a gas that a piston compresses to close packing, speeds grow as the inverse of the room of a
 // particle, and the number of collisions grows alike, also if t_c ends the losses. The limit is
@@ -99,8 +88,9 @@ double fastest_speed(const Model<D>& model, double start_speed, bool piston) {
   if (gains(model)) return kFastest;
   const double drive = drive_of(model);
   const double usual = std::max({drive, start_speed, free_speed(model)});
-  if (drive > 0.0 && is_lossless(model)) return kMaxGrowth * usual;
-  return piston ? kMaxCompressed * std::max(usual, emission_of(model)) : kNever;
+  const double heated = drive > 0.0 ? kMaxGrowth * std::max(usual, emission_of(model)) : kNever;
+  const double compressed = piston ? kMaxCompressed * std::max(usual, emission_of(model)) : kNever;
+  return std::min(heated, compressed);
 }
 
 static PhysicalStop no_room(double time, double temperature) {
@@ -116,8 +106,15 @@ PhysicalStop divergence(const Model<D>& model, double time, double temperature, 
                       rounded(temperature) + ", a speed of " + rounded(std::sqrt(D * temperature)) +
                       (gains(model) ? ": walls with restitution > 1 add more energy than the gas "
                                       "loses; lower this restitution"
-                                    : ": walls add energy and nothing loses energy; set a "
-                                      "restitution of particles or walls below 1"));
+                                    : ": walls add more energy than collisions take; lower a "
+                                      "restitution of particles or walls"));
+}
+
+PhysicalStop crowding(const Watchdog& watchdog, double time) {
+  const auto [particle, partner] = watchdog.busiest_pair();
+  return PhysicalStop("particle " + std::to_string(particle) + " and " + partner_name(partner) +
+                      " have no room between them at t = " + rounded(time) +
+                      ", and collide without end; enlarge the box, or remove particles");
 }
 
 template <int D>

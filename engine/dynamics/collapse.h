@@ -12,10 +12,13 @@ template <int D>
 PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double time,
                         double temperature, bool compressed);
 
+/// The error of a run whose particles have no room, so that collisions follow each other within
+/// the rounding of positions.
+PhysicalStop crowding(const Watchdog& watchdog, double time);
+
 /// Speed limit of a run whose fastest particle began with `start_speed`. A faster particle shows
 /// that walls heat the gas without bound, or that a piston leaves it no room. kNever without a
-/// piston, if walls do not heat or if dissipation may balance them. `piston`: whether the piston
-/// has moved.
+/// piston if walls do not heat. `piston`: whether the piston has moved.
 template <int D>
 double fastest_speed(const Model<D>& model, double start_speed, bool piston);
 

@@ -82,7 +82,10 @@ EventLoop<D>::EventLoop(const Model<D>& model, const Boundary<D>& boundary, RunS
       fastest_(fastest_speed<D>(model, saved.start_speed, saved.counts.strokes > 0)),
       counts_(saved.counts),
       checks_(saved.checks) {
-  if (may_collapse(model) || saved.counts.strokes > 0) {
+  if (!may_collapse(model) && saved.counts.strokes == 0) return;
+  if (saved.watchdog) {
+    watchdog_.emplace(gas_.particles.size(), *saved.watchdog);
+  } else {
     watchdog_.emplace(gas_.particles.size(), now_, saved.mean_collision_time);
   }
 }
@@ -168,7 +171,10 @@ void EventLoop<D>::save_to(RunState<D>& saved) const {
   saved.last_collisions.assign(gas_.last_collisions.begin(), gas_.last_collisions.end());
   saved.remainders.assign(gas_.remainders.begin(), gas_.remainders.end());
   saved.until_base_moves = until_base_moves_;
-  if (watchdog_) saved.mean_collision_time = watchdog_->mean_collision_time();
+  if (watchdog_) {
+    saved.mean_collision_time = watchdog_->mean_collision_time();
+    saved.watchdog = watchdog_->state();
+  }
   saved.counts = counts_;
   saved.checks = checks_;
 }

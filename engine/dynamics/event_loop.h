@@ -108,6 +108,11 @@ class EventLoop {
   void nudge(const std::vector<NewVelocity<D>>& velocities, std::uint64_t EventCounts::*count);
   /// Notes that the piston begins a stroke. Then the base must move.
   void begin_stroke();
+  /// Lets the watchdog begin anew, with this mean time between a particle's collisions. Few
+  /// collisions of one pair are a collapse then.
+  void watch_closely(double mean_collision_time) {
+    watchdog_.emplace(gas_.particles.size(), now_, mean_collision_time, kFewPerPair);
+  }
   /// The speed of the fastest particle now.
   double fastest_now() const;
   /// Raises the speed above which speeds diverge to that of a run with this speed at its start.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/dynamics/clock.h"
+#include "engine/dynamics/watchdog.h"
 #include "engine/physics/flight.h"
 #include "engine/physics/piston.h"
 #include "engine/physics/spin.h"
@@ -68,6 +69,7 @@ struct RunState {
   std::vector<Vec<D>> remainders;       ///< [N] exact positions - flights.r, or empty: all 0
   std::uint64_t until_base_moves = 0;   ///< physical events left
   double mean_collision_time = 0.0;     ///< of a particle, see Watchdog; 0: not known
+  std::optional<WatchdogState> watchdog;  ///< absent: it begins anew, as under other laws
   /// Of the fastest particle at the start, or after a nudge or puff, or of a stroke of the piston.
   double start_speed = 0.0;
   double kick_interval = 0.0;  ///< of bulk driving; 0: none
@@ -137,11 +139,11 @@ void visit(Archive& io, Flight<D>& flight) {
 template <class Archive, int D>
 void visit(Archive& io, RunState<D>& state) {
   auto& [gravity, wall_motions, phase_shifts, piston, base, now, flights, spins, last_collisions,
-         remainders, until_base_moves, mean_collision_time, start_speed, kick_interval, kick_origin,
-         kicks_since_origin, counts, checks] = state;
+         remainders, until_base_moves, mean_collision_time, watchdog, start_speed, kick_interval,
+         kick_origin, kicks_since_origin, counts, checks] = state;
   io(gravity, wall_motions, phase_shifts, piston, base, now, flights, spins, last_collisions,
-     remainders, until_base_moves, mean_collision_time, start_speed, kick_interval, kick_origin,
-     kicks_since_origin, counts, checks);
+     remainders, until_base_moves, mean_collision_time, watchdog, start_speed, kick_interval,
+     kick_origin, kicks_since_origin, counts, checks);
   io.require(makes_sense(state));
 }
 

@@ -136,19 +136,19 @@ Simulation<D>::Simulation(InParts, const Model<D>& model, RunState<D> saved)
       boundary_(model_, clock_, phase_shifts<D>(model_, saved), saved.piston),
       start_speed_(saved.start_speed),
       kick_origin_(saved.kick_origin),
+      kick_times_(kick_origin_, kick_interval<D>(model_)),
       kicks_since_origin_(saved.kicks_since_origin),
       loop_(model_, boundary_, (restart_changed_flights<D>(model_, saved), std::move(saved))) {
   if (saved.kick_interval != kick_interval<D>(model_)) {
     kick_origin_ = time();
+    kick_times_ = RegularTimes(kick_origin_, kick_interval<D>(model_));
     kicks_since_origin_ = 0;
   }
   preparation_ = std::make_unique<Preparation>(Preparation{std::move(saved), {}});
-      kick_times_(kick_origin_, kick_interval<D>(model_)),
 }
 
 template <int D>
 bool Simulation<D>::prepare(const StopRequest& pause) {
-    kick_times_ = RegularTimes(kick_origin_, kick_interval<D>(model_));
   if (!preparation_) return true;
   auto& [saved, work] = *preparation_;
   if (!loop_.place(work, pause) || !loop_.compare(work, pause)) return false;
@@ -278,6 +278,32 @@ double Simulation<D>::deepest_overlap(const StopRequest& stop) const {
   return work.deepest_overlap;
 }
 
+// Collisions that follow each other within the rounding of positions have no end, because the
+// particles have no room. The watchdog then finds the pair: it compares the time of collisions with
+// the time in which a particle crosses the box. In a collapse the watchdog knows a longer mean
+// time between collisions.
+template <int D>
+void Simulation<D>::look_for_room(double elapsed, std::uint64_t collisions) {
+  constexpr std::uint64_t kCollisionsPerLook = 200;
+  constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
+  looked_for_ += elapsed;
+  looked_at_ += collisions;
+  if (looked_at_ < kCollisionsPerLook) return;
+  const double rounding = kRounding * model_.box.maxCoeff();
+  const auto crowded = [&](double speed) {
+    return looked_for_ * speed <= rounding * static_cast<double>(looked_at_);
+  };
+  // The temperature takes time, and is needed only if the first particles had no more room.
+  const double speed = crowded(start_speed_) ? std::sqrt(D * temperature()) : start_speed_;
+  if (!crowded_ && speed > 0.0 && crowded(speed)) {
+    const auto& watchdog = loop_.watchdog();
+    crowded_ = !watchdog || watchdog->mean_collision_time() * speed <= rounding;
+    if (crowded_) loop_.watch_closely(model_.box.maxCoeff() / speed);
+  }
+  looked_for_ = 0.0;
+  looked_at_ = 0;
+}
+
 // The base moves before the run stops, so that the state is valid.
 template <int D>
 void Simulation<D>::attend_to(typename EventLoop<D>::Halt halt) {
@@ -289,6 +315,7 @@ void Simulation<D>::attend_to(typename EventLoop<D>::Halt halt) {
     allow_speed(loop_.fastest_now());
   }
   if (halt == EventLoop<D>::Halt::StandsStill) {
+    if (crowded_) throw crowding(*loop_.watchdog(), time());
     throw standstill<D>(model_, *loop_.watchdog(), time(), temperature(), compresses());
   }
 }
@@ -315,8 +342,11 @@ bool Simulation<D>::run_until(double time, std::uint64_t collisions, std::uint64
     const bool kicks = kick_time < kNever && kick_time <= stop;
     if (kicks) stop = kick_time;
     if (in_tiles_ && advance_window(stop, collisions, steps, stop_request)) continue;
+    const double since = base_time();
+    const std::uint64_t before = counts().collisions();
     const Halt halt =
         advance(stop, collisions, std::min(steps, counts().steps() + kStepsPerLook), stop_request);
+    look_for_room(base_time() - since, counts().collisions() - before);
     attend_to(halt);
     if (halt == Halt::Limit && (counts().collisions() >= collisions || counts().steps() >= steps)) {
       return false;

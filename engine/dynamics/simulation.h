@@ -145,6 +145,7 @@ class Simulation {
   void allow_speed(double speed);
   void set_velocities(const std::vector<NewVelocity<D>>& velocities,
                       std::uint64_t EventCounts::*count);
+  void look_for_room(double elapsed, std::uint64_t collisions);
   void attend_to(typename EventLoop<D>::Halt halt);
   void choose_way();
   void leave_tiles();
@@ -172,6 +173,9 @@ class Simulation {
   int until_tried_ = 0;            // moves of the base before tiles are tried again
   bool watched_in_tiles_ = false;  // whether tiles also run a gas that is watched
   bool way_is_open_ = false;       // whether choose_way() is due
+  double looked_for_ = 0.0;        // time and collisions since the last look for room
+  std::uint64_t looked_at_ = 0;
+  bool crowded_ = false;  // whether the watchdog looks for particles without room
 };
 
 extern template class Simulation<2>;

@@ -183,6 +183,7 @@ void ScheduledRun<D>::advance(Schedule schedule) {
   schedule.advance();
   if (!change.set.empty()) {
     RunState<D> state = simulation_->save();
+    state.watchdog.reset();
     if (!change.acts()) ++state.counts.law_changes;
     go_on_as(std::make_unique<Simulation<D>>(model_of<D>(schedule.laws(), seed_), std::move(state)),
              change.ramp ? Averages::Continue : Averages::Restart);
@@ -197,6 +198,7 @@ void ScheduledRun<D>::advance(Schedule schedule) {
 template <int D>
 void ScheduledRun<D>::enter(const Puff& puff) {
   RunState<D> state = simulation_->save();
+  state.watchdog.reset();
   const std::vector<PuffParticle<D>> particles = puff_particles(state, puff, laws(), seed_);
   if (static_cast<int>(particles.size()) < puff.count) {
     throw PhysicalStop(

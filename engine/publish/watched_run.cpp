@@ -195,8 +195,8 @@ void RunOf<D>::settle() {
   settled_ = true;
 }
 
-// A watchdog begins with each return to a state, so a replay may stop by itself shortly before the
-// run did. The run then continues from the next recorded state.
+// A run that stopped by itself may have continued under other laws. Its replay then continues from
+// the next recorded state.
 template <int D>
 bool RunOf<D>::run_until(double time, std::uint64_t collisions, std::uint64_t steps,
                          const StopRequest& pause) {

@@ -36,6 +36,20 @@ Checkpoint example() {
   saved.remainders = {{1e-11, 2e-11}, {3e-11, 4e-11}};
   saved.until_base_moves = 11;
   saved.mean_collision_time = 11.5;
+  saved.watchdog = WatchdogState{.most_per_pair = 38,
+                                 .look_interval = 40,
+                                 .until_look = 39,
+                                 .look_start = 0.25,
+                                 .window_start = 0.375,
+                                 .collisions = 41,
+                                 .participations = 82,
+                                 .longest_early = 0.875,
+                                 .means = {1.5, 2.5},
+                                 .suspicious = true,
+                                 .still_since = 0.4375,
+                                 .still_mean = 3.5,
+                                 .still_collisions = 43,
+                                 .pairs = {{{0, 1}, 44}, {{1, 7}, 45}}};
   saved.kick_interval = 0.0625;
   saved.kick_origin = 1e9 + 12.0;
   saved.kicks_since_origin = 13;
@@ -124,6 +138,13 @@ TEST_CASE("Checkpoint: a change of any one member changes the file") {
       [](Checkpoint& c) { disks(c).remainders[1].x() += 1.0; },
       [](Checkpoint& c) { ++disks(c).until_base_moves; },
       [](Checkpoint& c) { disks(c).mean_collision_time += 1.0; },
+      [](Checkpoint& c) { --disks(c).watchdog->until_look; },
+      [](Checkpoint& c) { ++disks(c).watchdog->participations; },
+      [](Checkpoint& c) { disks(c).watchdog->means[1] += 1.0; },
+      [](Checkpoint& c) { disks(c).watchdog->still_mean += 1.0; },
+      [](Checkpoint& c) {
+        ++disks(c).watchdog->pairs[{1, 7}];
+      },
       [](Checkpoint& c) { disks(c).kick_interval += 1.0; },
       [](Checkpoint& c) { disks(c).kick_origin += 1.0; },
       [](Checkpoint& c) { ++disks(c).kicks_since_origin; },

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/checkpoint/archive.h"
 #include "engine/dynamics/simulation.h"
 #include "tests/engine/support/gas.h"
 #include "tests/support/messages.h"
@@ -33,6 +34,83 @@ TEST_CASE("Standstill: speeds that diverge stop the run before numbers lose thei
       CHECK(finite_and_inside(model, simulation.state()));
     }
   }
+}
+
+// Losses on another axis, or of pairs that do not exist, do not limit the speed.
+TEST_CASE("Standstill: a particle that gains energy without end stops the run") {
+  for (const double restitution : {1.0, 0.9}) {
+    for (const bool closed : {false, true}) {
+      CAPTURE(restitution);
+      CAPTURE(closed);
+      Model<2> model = with_walls(periodic_box(10.0, 10.0), 0, kStatic);
+      model.walls[kLeft] = Wall{.kind = WallKind::Driven, .drive_speed = 1.0};
+      if (closed) model = with_walls(model, 1, {.restitution = 0.9});
+      model.restitution = restitution;
+      Simulation<2> simulation(model, random_gas(model, 1, 952));
+      CHECK(says(stop_of(simulation, 1e5), "diverges"));
+    }
+  }
+}
+
+TEST_CASE("Standstill: a collapse is found at the same collision in a run that was saved before") {
+  Model<2> model = periodic_box(12.0, 10.0);
+  model.restitution = 0.1;
+  const State<2> start = random_gas(model, 60, 953);
+  Simulation<2> whole(model, start);
+  const std::string stop = stop_of(whole, 1e6);
+  REQUIRE(says(stop, "inelastic collapse"));
+  for (const std::uint64_t before : {1, 5000, 9999}) {
+    CAPTURE(before);
+    Simulation<2> first(model, start);
+    REQUIRE_FALSE(first.run_until(1e6, whole.counts().collisions() - before));
+    RunState<2> saved = first.save(), read;
+    ArchiveWriter writer;
+    writer(saved);
+    ArchiveReader reader(writer.written(), "saved");
+    reader(read);
+    Simulation<2> second(model, read);
+    CHECK(stop_of(second, 1e6) == stop);
+    CHECK(second.counts().collisions() == whole.counts().collisions());
+  }
+}
+
+TEST_CASE("Standstill: particles without room stop the run") {
+  for (const double restitution : {1.0, 0.9, 0.5}) {
+    CAPTURE(restitution);
+    Model<2> row = periodic_box(2.0, 4.0);
+    row.restitution = restitution;
+    Simulation<2> pair(row,
+                       {.positions = {{0.5, 2.0}, {1.5, 2.0}}, .velocities = {{1, 0}, {-1, 0}}});
+    CHECK(says(stop_of(pair, 1.0), "particle 0 and particle 1"));
+  }
+  for (const double gap : {0.0, 0x1p-52, 0x1p-51}) {
+    CAPTURE(gap);
+    const Model<2> slot = with_walls(periodic_box(1.0 + gap, 4.0), 0, kStatic);
+    Simulation<2> single(slot, {.positions = {{0.5, 2.0}}, .velocities = {{1.0, 0.5}}});
+    CHECK(says(stop_of(single, 1.0), "have no room between them at t = "));
+    // Along the slot the particle is free.
+    Simulation<2> slides(slot, {.positions = {{0.5, 2.0}}, .velocities = {{0.0, 0.5}}});
+    CHECK(slides.run_until(100.0));
+  }
+  // Eleven full rows, each shifted against the one below.
+  State<2> rows;
+  for (int row = 0; row < 11; ++row) {
+    for (int k = 0; k < 10; ++k) {
+      rows.positions.push_back({std::fmod(k + 0.02 + row * 5.0 / 11.0, 10.0), row * 10.0 / 11.0});
+      rows.velocities.push_back({row % 2 == 0 ? 1.0 : -0.5, 0.0});
+    }
+  }
+  rows.velocities[3] = {0.25, 0.0};
+  Simulation<2> full(periodic_box(10.0, 10.0), rows);
+  CHECK(says(stop_of(full, 1.0), "have no room between them"));
+}
+
+// Room of 10^-9 diameters lets a run go on.
+TEST_CASE("Standstill: a narrow room is no standstill") {
+  const Model<2> slot = with_walls(periodic_box(1.0 + 1e-9, 4.0), 0, kStatic);
+  Simulation<2> single(slot, {.positions = {{0.5, 2.0}}, .velocities = {{1.0, 0.5}}});
+  CHECK(single.run_until(1e-4));
+  CHECK(single.counts().wall_collisions > 50'000);
 }
 
 // The first bounces come late and make the particles 10^11 times as fast. This is the only growth.
