@@ -66,14 +66,19 @@ Schedule::Schedule(const Scene& scene)
     : Schedule(scene, -std::numeric_limits<double>::infinity()) {}
 
 Schedule::Schedule(const Scene& scene, double time) : laws_(scene) {
-  changes_ = std::make_shared<const std::vector<Change>>(std::move(laws_.changes));
+  changes_ = std::make_shared<std::deque<Change>>(laws_.changes.begin(), laws_.changes.end());
+  count_ = changes_->size();
   laws_.changes.clear();
-  for (std::size_t number = 0; number < changes_->size(); ++number) plan(number, time);
+  for (std::size_t number = 0; number < count_; ++number) plan(number, time);
+}
+
+std::vector<Change> Schedule::changes() const {
+  return {changes_->begin(), changes_->begin() + static_cast<std::ptrdiff_t>(count_)};
 }
 
 Scene Schedule::scene() const {
   Scene scene = laws_;
-  scene.changes = *changes_;
+  scene.changes = changes();
   return scene;
 }
 
@@ -82,10 +87,12 @@ double Schedule::next() const {
 }
 
 void Schedule::add(const Change& change) {
-  std::vector<Change> all = *changes_;
-  all.push_back(change);
-  changes_ = std::make_shared<const std::vector<Change>>(std::move(all));
-  plan(changes_->size() - 1, -std::numeric_limits<double>::infinity());
+  if (changes_->size() > count_) {  // another copy has extended the list
+    const std::vector<Change> own = changes();
+    changes_ = std::make_shared<std::deque<Change>>(own.begin(), own.end());
+  }
+  changes_->push_back(change);
+  plan(count_++, -std::numeric_limits<double>::infinity());
 }
 
 // The time of a part of a ramp, or of a change without a ramp.

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -28,7 +29,7 @@ class Schedule {
   /// The scene with the current laws and all its changes.
   Scene scene() const;
   /// All changes of the scene.
-  const std::vector<Change>& changes() const { return *changes_; }
+  std::vector<Change> changes() const;
   /// Simulation time of the next change; infinite: never.
   double next() const;
   /// The change of the next step. It exists if next() is finite.
@@ -65,7 +66,10 @@ class Schedule {
   void change_to(const std::vector<Override>& settings);
 
   Scene laws_;
-  std::shared_ptr<const std::vector<Change>> changes_;  // shared by the copies of each change
+  // All changes are the first `count_` of this list. Copies of a schedule share the list, and the
+  // first that adds a change extends it.
+  std::shared_ptr<std::deque<Change>> changes_;
+  std::size_t count_ = 0;
   std::vector<Step> steps_;  // future steps, a heap with the earliest in front
 };
 
