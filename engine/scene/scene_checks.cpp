@@ -374,9 +374,10 @@ int resolve_count(const SceneInput& input, const toml::table& root, const std::s
     const bool walls_move = scene.clear_box() != scene.box;
     throw UserError(place,
                     (input.count ? std::to_string(*input.count) : number_text(*count)) +
-                        " particles do not fit into the box" +
+                        " particles have no place on a lattice in the box" +
                         (walls_move ? " where its walls move farthest in" : ""),
-                    "it holds at most " + std::to_string(capacity));
+                    "give at most " + std::to_string(capacity) +
+                        ", or the places of more in a file, with particles.start.file");
   }
   return static_cast<int>(*count);
 }

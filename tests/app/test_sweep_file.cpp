@@ -127,8 +127,8 @@ TEST_CASE("Sweep file: each mistake is refused at its place") {
        "s.toml:3:1: at particles.restitution=1.5: 'particles.restitution' cannot be 1.5; give a "
        "number between 0 and 1"},
       {"[axes]\n\"particles.restitution\" = [0.5, 0.6]\n\"particles.count\" = [20, 100000]\n",
-       "s.toml:4:1: at particles.restitution=0.5 particles.count=100000: 100000 particles do not "
-       "fit into the box; it holds at most 552"},
+       "s.toml:4:1: at particles.restitution=0.5 particles.count=100000: 100000 particles have no "
+       "place on a lattice in the box; give at most 552"},
   };
   for (const auto& [lines, message] : mistakes) {
     CAPTURE(lines);

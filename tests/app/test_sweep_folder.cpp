@@ -31,7 +31,7 @@ TEST_CASE("Sweep: failed runs are listed with their reasons, and do not stop the
                             "box.size=[25.0, 25.0], seed 1) failed: "
                             "time does not advance beyond t = 0.88"));
   CHECK(says(sweep.err, "  run 8 (" + restitution + "box.size=[8.0, 8.0], seed 1) failed: "));
-  CHECK(says(sweep.err, "300 particles do not fit into the box"));
+  CHECK(says(sweep.err, "300 particles have no place on a lattice in the box"));
   // Failures that would occur again are not repeated.
   const Outcome again = shell.run("clatter sweep s.toml --out d");
   CHECK(again.code == 1);

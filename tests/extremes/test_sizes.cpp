@@ -57,7 +57,7 @@ TEST_CASE("Sizes: 2 * 10^9 particles" *
       shell, measure + "--set box.size=[100000,100000]",
       {"2000000000 particles take about 480 GB, and this machine has ", "choose at most "});
   check_refused(shell, measure + "--set box.size=[1000,1000]",
-                {"do not fit into the box", "at most"});
+                {"have no place on a lattice", "at most"});
   MESSAGE("refused");
 }
 

@@ -639,7 +639,8 @@ TEST_CASE("Scene file: overrides replace values, and their mistakes name the fla
   CHECK(says(refusal(text, {{"particles.count", "many"}}),
              "--set particles.count: 'particles.count' cannot be \"many\"; give a whole number"));
   CHECK(says(refusal(text, {{"particles.count", "10000"}}),
-             "--set particles.count: 10000 particles do not fit into the box; it holds at most "));
+             "--set particles.count: 10000 particles have no place on a lattice in the box; give "
+             "at most "));
   CHECK(says(refusal(text, {{"walls.top.kind", "static"}}),
              "--set walls.top.kind: [walls.top] has no wall opposite"));
   CHECK(says(refusal(text, {{"particles..count", "1"}}),

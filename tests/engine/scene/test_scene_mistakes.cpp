@@ -294,16 +294,15 @@ TEST_CASE("Scene file: mistakes are reported with their place and a fix") {
        "s.toml:3:1: both 'particles.count' and 'particles.area_fraction' are given; give exactly "
        "one of"},
       {"[box]\nsize = [2.5, 3.5]\n[particles]\ncount = 9\n",
-       "s.toml:4:1: 9 particles do not fit into the box; it holds at most 8"},
+       "s.toml:4:1: 9 particles have no place on a lattice in the box; give at most 8"},
       {"[box]\nsize = [2.5, 3.5]\n[particles]\ncount = 8\n[walls.left]\nkind = \"sawtooth\"\n"
        "stroke = 1\nfrequency = 1\n[walls.right]\nkind = \"static\"\n",
-       "s.toml:4:1: 8 particles do not fit into the box where its walls move farthest in; it holds "
-       "at "
-       "most 4"},
+       "s.toml:4:1: 8 particles have no place on a lattice in the box where its walls move "
+       "farthest in; give at most 4"},
       {"[particles]\narea_fraction = 0.95\n",
-       "s.toml:2:1: 605 particles do not fit into the box; it holds at most "},
+       "s.toml:2:1: 605 particles have no place on a lattice in the box; give at most "},
       {"[particles]\ncount = 2000000000\n",
-       "s.toml:2:1: 2000000000 particles do not fit into the box; it holds at most "},
+       "s.toml:2:1: 2000000000 particles have no place on a lattice in the box; give at most "},
   };
   for (const Case& mistake : cases) {
     CAPTURE(mistake.text);
