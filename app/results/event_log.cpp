@@ -19,9 +19,10 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
+// A zero has no sign: its sign depends on the halts of the run.
 template <class Vector>
 void add(std::vector<double>& records, const Vector& vector) {
-  records.insert(records.end(), vector.data(), vector.data() + vector.size());
+  for (const double number : vector) records.push_back(number + 0.0);
 }
 
 template <int D>
