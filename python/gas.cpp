@@ -1,6 +1,7 @@
 #include "python/gas.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -14,6 +15,8 @@
 #include "app/runs/measurement_hand_over.h"
 #include "app/runs/run.h"
 #include "app/system/process_usage.h"
+#include "engine/checkpoint/archive.h"
+#include "engine/checkpoint/checkpoint.h"
 #include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/measure/measurement.h"
@@ -50,6 +53,51 @@ Gas::AnyRun Gas::run_of(const Scene& scene, std::uint64_t seed, const StopReques
 
 Gas::Gas(const Scene& scene, std::uint64_t seed, const StopRequest& stop)
     : started_(scene), seed_(seed), run_(run_of(scene, seed, stop)) {}
+
+Gas::Gas(const Scene& scene, std::uint64_t seed, AnyRun run)
+    : started_(scene), seed_(seed), run_(std::move(run)) {}
+
+std::string Gas::saved() {
+  const Turn turn(*this);
+  Checkpoint checkpoint;
+  checkpoint.program = "clatter " CLATTER_VERSION;
+  checkpoint.command = "python";
+  checkpoint.scene = scene_to_toml(recorded());
+  checkpoint.start_temperature = started_.particles.start.temperature;
+  checkpoint.seed = seed_;
+  std::string shown;
+  std::visit(
+      [&](auto& run) {
+        checkpoint.saved = run.simulation().save();
+        shown = run.save_shown();
+      },
+      run_);
+  ArchiveWriter writer;
+  std::string bytes = checkpoint_bytes(checkpoint);
+  writer(bytes, shown, arrived_);
+  return writer.written();
+}
+
+std::unique_ptr<Gas> Gas::restored(const std::string& saved) {
+  const std::string name = "the saved gas";
+  std::string bytes, shown;
+  bool arrived = false;
+  ArchiveReader reader(saved, name);
+  reader(bytes, shown, arrived);
+  reader.finish();
+  const Checkpoint checkpoint = checkpoint_of(bytes, name);
+  Scene scene = parse_scene(checkpoint.scene, name, {}, StartFile::Skip);
+  scene.particles.start.temperature = checkpoint.start_temperature;
+  return std::visit(
+      [&]<int D>(const RunState<D>& state) {
+        AnyRun run(std::in_place_type<ScheduledRun<D>>, scene, checkpoint.seed, state);
+        std::get<ScheduledRun<D>>(run).show(scene.view, shown);
+        std::unique_ptr<Gas> gas(new Gas(scene, checkpoint.seed, std::move(run)));
+        gas->arrived_ = arrived;
+        return gas;
+      },
+      checkpoint.saved);
+}
 
 double Gas::time() {
   const Turn turn(*this);
@@ -253,6 +301,16 @@ Size size_of(int width, const Scene& scene) {
   return {width, static_cast<int>(std::round(height))};
 }
 
+// The first drawing starts threads of OpenGL, which a forked process lacks: it would wait for them
+// without end.
+void require_own_threads() {
+  static const pid_t first = getpid();
+  if (getpid() == first) return;
+  throw RunError(
+      "this process was forked after a drawing, and lacks the threads of OpenGL; draw in processes "
+      "of multiprocessing.get_context(\"spawn\")");
+}
+
 }  // namespace
 
 std::string Gas::measure(const std::optional<double>& duration, const StopRequest& stop) {
@@ -290,6 +348,7 @@ EventTable Gas::events(long count, const StopRequest& stop) {
 Image Gas::draw(int width, const StopRequest& stop) {
   const Turn turn(*this);
   const Size size = size_of(width, started_);
+  require_own_threads();
   const Snapshot snapshot = std::visit([](auto& run) { return run.snapshot(); }, run_);
   // Dear ImGui, which draws the text, has one state for all threads.
   static std::mutex drawing;

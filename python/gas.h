@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -30,6 +31,11 @@ class Gas {
   /// The gas at time 0. Throws UserError and Interrupted.
   Gas(const Scene& scene, std::uint64_t seed, const StopRequest& stop = {});
 
+  /// The gas of saved(). Throws UserError if the bytes are damaged or of another version.
+  static std::unique_ptr<Gas> restored(const std::string& saved);
+
+  /// The whole gas: its state, future, changes of laws, and the averages of its view.
+  std::string saved();
   /// Simulation time.
   double time();
   /// Granular temperature T = (m/DN) sum v^2.
@@ -65,6 +71,7 @@ class Gas {
   using AnyRun = std::variant<ScheduledRun<2>, ScheduledRun<3>>;
   class Turn;
 
+  Gas(const Scene& scene, std::uint64_t seed, AnyRun run);
   static AnyRun run_of(const Scene& scene, std::uint64_t seed, const StopRequest& stop);
   Scene recorded() const;
 

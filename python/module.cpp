@@ -133,6 +133,10 @@ std::unique_ptr<Gas> load_gas(const py::object& source, std::uint64_t seed, cons
       [&](const StopRequest& stop) { return std::make_unique<Gas>(scene, seed, stop); });
 }
 
+std::unique_ptr<Gas> copy_of(Gas& gas) {
+  return Gas::restored(gas.saved());
+}
+
 void run_until(Gas& gas, double time) {
   without_gil([&](const StopRequest& stop) { gas.run_until(time, stop); });
 }
@@ -234,6 +238,10 @@ PYBIND11_MODULE(clatter, module) {
                   "A gas of disks or spheres. clatter.load() makes one. Only one thread at a time "
                   "may use a gas; different gases run in parallel.")
       .def("__repr__", description)
+      .def("__copy__", copy_of)
+      .def("__deepcopy__", [](Gas& gas, const py::dict&) { return copy_of(gas); })
+      .def(py::pickle([](Gas& gas) { return py::bytes(gas.saved()); },
+                      [](const py::bytes& saved) { return Gas::restored(saved); }))
       .def_property_readonly("time", &Gas::time, "Simulation time, in units of time.")
       .def_property_readonly("temperature", &Gas::temperature,
                              "Granular temperature T = (m/DN) sum v^2 now, in units of energy, "

@@ -93,18 +93,16 @@ std::string read_whole(const std::filesystem::path& file) {
 
 }  // namespace
 
-void write_checkpoint(const std::filesystem::path& file, Checkpoint& checkpoint) {
+std::string checkpoint_bytes(Checkpoint& checkpoint) {
   const std::string body = bytes_of(checkpoint);
   Head head{.length = body.size()};
   std::string bytes = std::string(kMagic) + bytes_of(head) + body;
   std::uint32_t sum = checksum(bytes);
-  bytes += bytes_of(sum);
-
-  write_file(file, bytes, previous_checkpoint(file));
+  return bytes + bytes_of(sum);
 }
 
-Checkpoint read_checkpoint(const std::filesystem::path& file) {
-  const std::string whole = read_whole(file);
+Checkpoint checkpoint_of(std::string_view whole, const std::filesystem::path& file) {
+  if (!whole.starts_with(kMagic)) refuse(file, "this is not a checkpoint");
   std::string_view bytes = whole;
   const auto take = [&](std::size_t count) {
     if (bytes.size() < count) refuse(file, "the checkpoint is truncated");
@@ -126,6 +124,14 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   Checkpoint checkpoint;
   read(checkpoint, body, file);
   return checkpoint;
+}
+
+void write_checkpoint(const std::filesystem::path& file, Checkpoint& checkpoint) {
+  write_file(file, checkpoint_bytes(checkpoint), previous_checkpoint(file));
+}
+
+Checkpoint read_checkpoint(const std::filesystem::path& file) {
+  return checkpoint_of(read_whole(file), file);
 }
 
 std::filesystem::path previous_checkpoint(const std::filesystem::path& file) {

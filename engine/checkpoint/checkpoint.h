@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "engine/dynamics/run_state.h"
 
@@ -22,13 +23,19 @@ struct Checkpoint {
   std::string events;              ///< state of an event log; empty: no log
 };
 
+/// The content of a checkpoint file.
+std::string checkpoint_bytes(Checkpoint& checkpoint);
+
+/// The checkpoint with this content. Throws UserError, with `file` as its name, if the content is
+/// damaged or of another version; the last error names the program that wrote it.
+Checkpoint checkpoint_of(std::string_view bytes, const std::filesystem::path& file);
+
 /// Writes a checkpoint. A whole checkpoint exists at every moment, even if the machine stops. The
 /// new file gets its name only after it is on the disk, and the previous one becomes FILE.previous.
 /// Throws RunError.
 void write_checkpoint(const std::filesystem::path& file, Checkpoint& checkpoint);
 
-/// Reads a checkpoint. Throws UserError if the file is missing, damaged or of another version; the
-/// last error names the program that wrote it.
+/// Reads a checkpoint. Throws UserError if the file is missing, and as checkpoint_of() does.
 Checkpoint read_checkpoint(const std::filesystem::path& file);
 
 /// Name of the previous checkpoint.

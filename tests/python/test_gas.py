@@ -1,6 +1,9 @@
 """The states of a gas: the bits of the program, changes of laws, errors."""
 
+import copy
 import csv
+import multiprocessing
+import pickle
 import unittest
 from pathlib import Path
 
@@ -174,6 +177,89 @@ class Errors(unittest.TestCase):
         gas.set({"particles.restitution": 1.0})
         gas.run_until(at + 0.01)
         self.assertEqual(gas.time, at + 0.01)
+
+
+class Copies(unittest.TestCase):
+    def copies(self, gas):
+        yield copy.copy(gas)
+        yield copy.deepcopy({"gas": gas})["gas"]
+        yield pickle.loads(pickle.dumps(gas))
+
+    def check(self, scene):
+        """A copy has the state, the pictures and the future of the gas."""
+        gas = clatter.load(scene, seed=5)
+        gas.run_until(1.7)
+        gas.set({"particles.restitution": 0.8})
+        for copied in self.copies(gas):
+            for later in (gas.time, 4.0):  # after the change of the scene
+                same = clatter.load(scene, seed=5)
+                same.run_until(1.7)
+                same.set({"particles.restitution": 0.8})
+                same.run_until(later)
+                copied.run_until(later)
+                self.assertEqual(copied.hash, same.hash)
+                self.assertEqual((copied.time, copied.seed), (later, 5))
+                self.assertEqual(copied.scene, same.scene)
+                np.testing.assert_array_equal(copied.draw(width=100), same.draw(width=100))
+        self.assertEqual(gas.time, 1.7)
+
+    def test_copies_have_the_same_future(self):
+        for view in ({}, {"field": "temperature"}, {"trail": 0.5}):
+            with self.subTest(view=view):
+                self.check({**DISKS, "view": view})
+
+    def test_a_copy_of_a_gas_from_a_file_has_its_particles(self):
+        folder = Folder()
+        self.addCleanup(folder.cleanup)
+        folder.write("two.csv", "x,y,vx,vy\n1,1,1,0\n3,1,-1,0.5\n")
+        path = folder.write(
+            "s.toml",
+            'title = "T"\nbox.size = [4, 4]\n'
+            'particles.start = { layout = "file", file = "two.csv" }\n',
+        )
+        gas = clatter.load(path)
+        copied = pickle.loads(pickle.dumps(gas))
+        copied.run_until(20.0)
+        gas.run_until(20.0)
+        self.assertEqual(copied.hash, gas.hash)
+        self.assertEqual(copied.scene, gas.scene)
+
+    def test_a_change_of_a_copy_stays_in_the_copy(self):
+        gas = clatter.load(DISKS)
+        copied = copy.copy(gas)
+        copied.set({"particles.restitution": 0.5})
+        self.assertEqual(gas.scene["particles"]["restitution"], 0.9)
+        self.assertEqual(len(gas.scene["change"]), 1)
+        gas.set({"particles.restitution": 0.7})
+        self.assertEqual(copied.scene["change"][1]["set"], {"particles.restitution": 0.5})
+        self.assertEqual(gas.scene["change"][1]["set"], {"particles.restitution": 0.7})
+
+    def test_damaged_pickles_are_refused(self):
+        saved = pickle.dumps(clatter.load(DISKS))
+        for place in (len(saved) // 2, len(saved) - 40):
+            damaged = saved[:place] + bytes([saved[place] ^ 1]) + saved[place + 1 :]
+            with self.assertRaises(clatter.SceneError):
+                pickle.loads(damaged)
+
+
+def draw_into(pipe):
+    try:
+        pipe.send(clatter.load("cooling").draw(width=100).shape[1])
+    except clatter.RunError as error:
+        pipe.send(str(error))
+
+
+class Forks(unittest.TestCase):
+    def test_a_forked_process_draws_or_raises(self):
+        clatter.load("cooling").draw(width=100)
+        ours, theirs = multiprocessing.Pipe()
+        child = multiprocessing.get_context("fork").Process(target=draw_into, args=(theirs,))
+        child.start()
+        self.addCleanup(child.kill)
+        self.assertTrue(ours.poll(60), "the child neither draws nor raises")
+        answer = ours.recv()
+        self.assertTrue(answer == 100 or "forked" in answer)
+        child.join()
 
 
 if __name__ == "__main__":
