@@ -55,8 +55,8 @@ void write_dataset(const H5::Group& group, const std::string& name, const std::s
   write_dataset(group, name, unit, values, {values.size()});
 }
 
-// Files in the oldest format of each object: all readers know it, and groups have no time of writing.
-// From HDF5 2.0 on, the library takes the format of version 1.8 without these bounds.
+// Files in the oldest format of each object: all readers know it, and groups have no time of
+// writing. From HDF5 2.0 on, the library takes the format of version 1.8 without these bounds.
 static H5::FileAccPropList oldest_format() {
   H5::FileAccPropList list;
   list.setLibverBounds(H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST);
