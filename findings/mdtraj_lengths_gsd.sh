@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# MDTraj divides the lengths of LAMMPS dumps and XYZ files by 10 (from Å to nm), but not those of GSD
-# files. The same particles are 10 times farther apart from GSD. None of the three formats has a
+# MDTraj divides the lengths of LAMMPS dumps and XYZ files by 10 (Angstrom to nm), but not those of
+# GSD files. The same particles are 10 times farther apart from GSD. None of the three formats has a
 # unit of length.
 set -euo pipefail
 suite=trixie

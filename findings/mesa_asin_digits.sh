@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# asin and acos of GLSL have three to four correct digits in Mesa. A shader in single precision, with
-# seven digits elsewhere, gets an angle that is wrong by up to 0.0004. atan has five digits. sin and
-# cos have all. GLSL leaves the precision of asin open, so this is valid.
+# asin and acos of GLSL have three to four correct digits in Mesa. A shader in single precision,
+# with seven digits elsewhere, gets an angle that is wrong by up to 0.0004. atan has five digits, sin
+# all. GLSL leaves the precision of asin open, so this is valid.
 set -euo pipefail
 suite=trixie
 packages=base-files,gcc,libc6-dev,libegl-dev,libgl-dev,libgl1-mesa-dri=25.0.7-2+deb13u1
@@ -50,8 +50,8 @@ int main(void) {
   glReadPixels(0, 0, N, 1, GL_RGBA, GL_FLOAT, value);
   const double a = worst(0, asin), b = worst(1, acos), c = worst(2, atan), d = worst(3, sin);
   printf("%s, %s\n", (const char*)glGetString(GL_VERSION), (const char*)glGetString(GL_RENDERER));
-  printf("Expectation: errors between 0 and 1 are near 1e-7.\nBehaviour: the largest are asin %.1e, "
-         "acos %.1e, atan %.1e, sin %.1e.\n", a, b, c, d);
+  printf("Expectation: errors between 0 and 1 are near 1e-7.\nBehaviour: the largest are asin "
+         "%.1e, acos %.1e, atan %.1e, sin %.1e.\n", a, b, c, d);
   return !(a > 3e-4 && b > 1e-4 && c > 2e-6 && d < 2e-7);
 }
 END

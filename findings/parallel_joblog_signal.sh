@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# GNU parallel of Debian 12 writes the exit value 0 to its --joblog for a job that a signal has ended,
-# for example the killer of processes without memory. Only the next column has the signal. A list of
-# the jobs whose exit value is not 0 lacks those that were killed. Version 20240222 writes 137.
+# GNU parallel of Debian 12 writes the exit value 0 to its --joblog for a job that a signal has
+# ended, for example where memory runs out. Only the next column has the signal. A list of the jobs
+# whose exit value is not 0 lacks those that were killed. Version 20240222 writes 137.
 set -euo pipefail
 suite=bookworm
 packages=base-files,bash,dash,coreutils,procps,parallel=20221122+ds-2
@@ -29,4 +29,5 @@ echo "Behaviour: Exitval and Signal of the log are"
 tail -n +2 /log | cut -f7,8 | tr '\t' ' ' | tee /rows
 [[ $(paste -sd, /rows) == '0 0,3 0,0 9,0 15' ]]
 END
-unshare --mount sh -c 'mount -t proc proc "$1/proc" && chroot "$1" /bin/bash /finding' - "$folder/root"
+unshare --mount sh -c 'mount -t proc proc "$1/proc" && chroot "$1" /bin/bash /finding' - \
+  "$folder/root"

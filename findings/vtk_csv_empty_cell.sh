@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # VTK's reader of CSV tables, which ParaView uses, reads an empty cell of a column of numbers as 0,
-# without a message. A point of a sweep without a result is then drawn as a result of 0. The word nan
-# in the cell gives NaN in a column of decimals.
+# without a message. A point of a sweep without a result is then drawn as a result of 0. The word
+# nan in the cell gives NaN in a column of decimals.
 set -euo pipefail
 suite=trixie
 packages=(python3-vtk9=9.3.0+dfsg1-4+b1 libvtk9.3=9.3.0+dfsg1-4+b1 base-files ibverbs-providers
