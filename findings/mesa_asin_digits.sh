@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # asin and acos of GLSL have three to four correct digits in Mesa. A shader in single precision,
-# with seven digits elsewhere, gets an angle that is wrong by up to 0.0004. atan has five digits, sin
-# all. GLSL leaves the precision of asin open, so this is valid.
+# with seven digits elsewhere, gets an angle that is wrong by up to 0.0004. atan has five digits,
+# sin all. GLSL leaves the precision of asin open, so this is valid.
 set -euo pipefail
 suite=trixie
 packages=base-files,gcc,libc6-dev,libegl-dev,libgl-dev,libgl1-mesa-dri=25.0.7-2+deb13u1
