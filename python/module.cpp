@@ -146,17 +146,21 @@ py::object measure_gas(Gas& gas, const std::optional<double>& duration) {
       without_gil([&](const StopRequest& stop) { return gas.measure(duration, stop); }));
 }
 
-// A structured array with a field of each quantity.
-py::object events(Gas& gas, long count) {
+// A structured array with a field of each quantity, or of each of its components if it is flat.
+py::object events(Gas& gas, long count, bool flat) {
   const EventTable table =
       without_gil([&](const StopRequest& stop) { return gas.events(count, stop); });
   const auto size = static_cast<py::ssize_t>(record_size(table.quantities));
   const auto rows = static_cast<py::ssize_t>(table.records.size()) / size;
   const py::array_t<double> numbers({rows, size}, table.records.data());
   py::list fields;
+  py::list columns;
   for (const auto& [name, unit, components, whole] : table.quantities) {
     const bool scalar = components.size() == 1 && components.front().empty();
     const char* const type = whole ? "i8" : "f8";
+    for (const std::string& component : components) {
+      columns.append(py::make_tuple(name + component, type));
+    }
     const py::tuple vector = py::make_tuple(name, type, py::make_tuple(components.size()));
     fields.append(scalar ? py::tuple(py::make_tuple(name, type)) : vector);
   }
@@ -166,12 +170,12 @@ py::object events(Gas& gas, long count) {
     const auto width = static_cast<py::ssize_t>(components.size());
     const bool scalar = width == 1 && components.front().empty();
     const py::object all = py::slice{py::none(), py::none(), py::none()};
-    const py::object columns =
+    const py::object part =
         scalar ? py::object(py::int_(place)) : py::object(py::slice(place, place + width, 1));
-    array[py::str(name)] = numbers[py::make_tuple(all, columns)];
+    array[py::str(name)] = numbers[py::make_tuple(all, part)];
     place += width;
   }
-  return array;
+  return flat ? array.attr("view")(columns) : array;
 }
 
 py::array_t<unsigned char> draw_gas(Gas& gas, int width) {
@@ -284,10 +288,11 @@ PYBIND11_MODULE(clatter, module) {
            "(key events) are those of the averaging time. docs/results.md describes the keys.\n\n"
            "The key performance has the CPU time of the whole process. Raises SceneError, RunError "
            "and PhysicalStop. These, and Ctrl-C, lose the averages and keep the gas.")
-      .def("events", events, "n"_a,
+      .def("events", events, "n"_a, "flat"_a = false,
            "Runs the gas on for n collisions of particles and with walls. Returns them as a "
            "structured array, (n,): the quantities of an event log, described in "
-           "docs/results.md. Vectors are fields with D components.\n\n"
+           "docs/results.md. Vectors are fields with D components, or D fields with the names of "
+           "the CSV columns if `flat`, as pandas.DataFrame needs.\n\n"
            "Afterwards the gas is at the time of the last of them. Raises PhysicalStop, SceneError "
            "for n < 1, and RunError if no more collisions occur. These, and Ctrl-C, lose the "
            "collisions and keep the gas.")

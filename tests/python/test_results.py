@@ -88,6 +88,30 @@ class Events(unittest.TestCase):
             gas.run_until(21.0)
             self.assertEqual(gas.hash, result["state_hash"])
 
+    def test_flat_events_have_the_columns_of_the_csv(self):
+        for name, text in (("disks", DISKS_TOML), ("spheres", SPHERES_TOML)):
+            path = self.folder.write(name + ".toml", text)
+            self.folder.measure(path, "--events", name + ".csv")
+            log = np.genfromtxt(
+                Path(self.folder.name, name + ".csv"), delimiter=",", names=True, skip_header=1
+            )
+            events = clatter.load(path).events(len(log), flat=True)
+            self.assertEqual(events.dtype.names, log.dtype.names)
+            for column in log.dtype.names:
+                np.testing.assert_array_equal(events[column], log[column])
+            self.assertEqual(events["partner"].dtype, np.int64)
+
+    def test_flat_events_are_a_table_of_pandas(self):
+        try:
+            import pandas
+        except ImportError:
+            self.skipTest("this test needs pandas")
+        events = clatter.load("vibrated").events(50, flat=True)
+        table = pandas.DataFrame(events)
+        self.assertEqual(list(table), list(events.dtype.names))
+        self.assertEqual(len(table), 50)
+        np.testing.assert_array_equal(table["velocity_after_y"], events["velocity_after_y"])
+
     def test_a_gas_without_collisions_has_no_events(self):
         gas = clatter.load({"title": "T", "box": {"size": [9, 8]}, "particles": {"count": 1}})
         with self.assertRaisesRegex(clatter.RunError, "only 0 of 1 collisions occur"):
