@@ -65,25 +65,24 @@ std::string Gas::saved() {
   checkpoint.scene = scene_to_toml(recorded());
   checkpoint.start_temperature = started_.particles.start.temperature;
   checkpoint.seed = seed_;
-  std::string shown;
   std::visit(
       [&](auto& run) {
         checkpoint.saved = run.simulation().save();
-        shown = run.save_shown();
+        checkpoint.film = run.save_shown();
       },
       run_);
   ArchiveWriter writer;
   std::string bytes = checkpoint_bytes(checkpoint);
-  writer(bytes, shown, arrived_);
+  writer(bytes, arrived_);
   return writer.written();
 }
 
 std::unique_ptr<Gas> Gas::restored(const std::string& saved) {
   const std::string name = "the saved gas";
-  std::string bytes, shown;
+  std::string bytes;
   bool arrived = false;
   ArchiveReader reader(saved, name);
-  reader(bytes, shown, arrived);
+  reader(bytes, arrived);
   reader.finish();
   const Checkpoint checkpoint = checkpoint_of(bytes, name);
   Scene scene = parse_scene(checkpoint.scene, name, {}, StartFile::Skip);
@@ -91,7 +90,7 @@ std::unique_ptr<Gas> Gas::restored(const std::string& saved) {
   return std::visit(
       [&]<int D>(const RunState<D>& state) {
         AnyRun run(std::in_place_type<ScheduledRun<D>>, scene, checkpoint.seed, state);
-        std::get<ScheduledRun<D>>(run).show(scene.view, shown);
+        std::get<ScheduledRun<D>>(run).show(scene.view, checkpoint.film);
         std::unique_ptr<Gas> gas(new Gas(scene, checkpoint.seed, std::move(run)));
         gas->arrived_ = arrived;
         return gas;

@@ -397,7 +397,7 @@ int measure(const MeasureOptions& options) {
                         ", and the run ends at " + number_text(end),
                     "give a time after the checkpoint");
   }
-  if (resumed && differs(*resumed, kBurnIn)) {
+  if (resumed && differs(*resumed, kBurnInKey)) {
     double& fitted = scene.measure.burn_in;
     fitted = std::max(fitted, std::min(burn_in, resumed->time()));
   }

@@ -31,14 +31,9 @@ bool hand_over(std::optional<Measurement<D>>& measurement, const Simulation<D>& 
   const bool go_on = same_particles && averages_go_on(state, same_inertia, next.model(), measure);
   if (!flights_go_on(state, next.model())) measurement->end_flights();
   const std::string saved = measurement->save();
-  if (saved.empty()) {
-    measurement.emplace(next, measure, end);
-  } else if (go_on) {
-    measurement.emplace(next, measure, ArchiveReader(saved, "the measurement"));
-  } else {
-    measurement.emplace(next, measure, end, ArchiveReader(saved, "the measurement"));
-  }
-  return go_on && !saved.empty();
+  measurement.emplace(next, measure, end, ArchiveReader(saved, "the measurement"),
+                      go_on ? Averages::GoOn : Averages::Restart);
+  return go_on;
 }
 
 template bool averages_go_on(const RunState<2>&, bool, const Model<2>&, const Measure&);

@@ -69,10 +69,10 @@ std::optional<Resumed> resume(const CommonOptions& common, const CheckpointOptio
   return resumed;
 }
 
-void require_same_measure(const Resumed& resumed, double burn_in) {
+void require_same_measure(const Resumed& resumed, bool burns_in) {
   for (const KeyDifference& key : resumed.differences) {
     if (!key.key.starts_with("measure.") || key.key == "measure.duration") continue;
-    if (key.key == kBurnIn && resumed.time() <= burn_in) continue;
+    if (key.key == kBurnInKey && burns_in) continue;
     refuse(resumed, key,
            "keep the value for the averages with --set " + key.key + "=" + key.before);
   }

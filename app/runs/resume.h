@@ -28,11 +28,11 @@ std::optional<Resumed> resume(const CommonOptions& common, const CheckpointOptio
                               Scene& scene);
 
 /// Key of the time at which averages start.
-inline constexpr const char* kBurnIn = "measure.burn_in";
+inline constexpr const char* kBurnInKey = "measure.burn_in";
 
 /// Throws UserError if [measure] of the scene differs from the averages in the checkpoint. A run
-/// that is still within the burn-in of the scene may have had a shorter one.
-void require_same_measure(const Resumed& resumed, double burn_in);
+/// that `burns_in`, within the burn-in of the scene, may have had another burn-in.
+void require_same_measure(const Resumed& resumed, bool burns_in);
 
 /// Whether [view] of the scene is that of the checkpoint. The speed may differ.
 bool has_same_view(const Resumed& resumed);

@@ -90,15 +90,13 @@ Measurement<D>& Run<D>::measure(double end) {
     if (resumed_) tell_new_averages();
     return *measurement_;
   }
-  require_same_measure(*resumed_, scene_.measure.burn_in);
+  require_same_measure(*resumed_, simulation().time() <= scene_.measure.burn_in);
   std::string& saved = resumed_->checkpoint.measurement;
-  const ArchiveReader reader(saved, resumed_->file);
-  // The last run ended within the burn-in, and began averages early.
-  if (differs(*resumed_, kBurnIn)) {
-    measurement_.emplace(simulation(), scene_.measure, end, reader);
-  } else {
-    measurement_.emplace(simulation(), scene_.measure, reader);
-  }
+  // The last run may have ended within the burn-in, and begun averages early.
+  const bool restart = differs(*resumed_, kBurnInKey);
+  measurement_.emplace(simulation(), scene_.measure, end, ArchiveReader(saved, resumed_->file),
+                       restart ? Averages::Restart : Averages::GoOn);
+  if (restart) tell_new_averages();
   saved.clear();
   return *measurement_;
 }

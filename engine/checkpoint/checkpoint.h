@@ -18,7 +18,7 @@ struct Checkpoint {
   std::uint64_t seed = 1;          ///< of the run
   AnyRunState saved;               ///< the run itself
   std::string measurement;         ///< result of Measurement::save(); empty: no measurement
-  std::string film;                ///< state of a film; empty: no film
+  std::string film;                ///< state of a film, or of a view; empty: none
   std::string trajectory;          ///< state of a trajectory; empty: no trajectory
   std::string events;              ///< state of an event log; empty: no log
 };

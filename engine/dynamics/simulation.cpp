@@ -289,7 +289,8 @@ void Simulation<D>::look_for_room(double elapsed, std::uint64_t collisions) {
   looked_for_ += elapsed;
   looked_at_ += collisions;
   if (looked_at_ < kCollisionsPerLook) return;
-  const double rounding = kRounding * model_.box.maxCoeff();
+  // In a longer box the rounding of positions is carried on.
+  const double rounding = kRounding * std::min(model_.box.maxCoeff(), kLongBox * model_.diameter);
   const auto crowded = [&](double speed) {
     return looked_for_ * speed <= rounding * static_cast<double>(looked_at_);
   };

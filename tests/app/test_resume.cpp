@@ -218,7 +218,7 @@ TEST_CASE("Resume: legs that end within the burn-in lead to the averages of one 
   // An interrupted leg continues with its own burn-in.
   REQUIRE(shell.run(line + "--until 6 --out a2.json --resume c").code == 0);
   CHECK(result_of(shell, "a2.json") == result_of(shell, "a.json"));
-  check_refused(shell, line + "--resume e --until 90 --set measure.burn_in=70",
+  check_refused(shell, line + "--resume e --until 90 --set measure.burn_in=50",
                 {"e: ", "measure.burn_in", "--set measure.burn_in=20"});
 }
 

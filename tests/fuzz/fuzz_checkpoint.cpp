@@ -115,7 +115,7 @@ void resume(const std::string& bytes, bool deep) {
   if (!saved || saved->flights.size() != count) return;
   ScheduledRun<D> run(fuzzed_scene<D>(), 1, *saved);
   if (!checkpoint.measurement.empty()) {
-    Measurement<D> measurement(run.simulation(), fuzzed_scene<D>().measure,
+    Measurement<D> measurement(run.simulation(), fuzzed_scene<D>().measure, kEnd,
                                ArchiveReader(checkpoint.measurement, "fuzz"));
     if (deep) {
       run.run_until(kEnd, 100, 1000);

@@ -204,7 +204,7 @@ class Copies(unittest.TestCase):
         self.assertEqual(gas.time, 1.7)
 
     def test_copies_have_the_same_future(self):
-        for view in ({}, {"field": "temperature"}, {"trail": 0.5}):
+        for view in ({}, {"field": "temperature"}, {"trails": 0.5}):
             with self.subTest(view=view):
                 self.check({**DISKS, "view": view})
 
@@ -231,12 +231,12 @@ class Copies(unittest.TestCase):
         self.assertEqual(gas.scene["particles"]["restitution"], 0.9)
         self.assertEqual(len(gas.scene["change"]), 1)
         gas.set({"particles.restitution": 0.7})
-        self.assertEqual(copied.scene["change"][1]["set"], {"particles.restitution": 0.5})
-        self.assertEqual(gas.scene["change"][1]["set"], {"particles.restitution": 0.7})
+        self.assertEqual(copied.scene["change"][1]["set"], {"particles.restitution": "0.5"})
+        self.assertEqual(gas.scene["change"][1]["set"], {"particles.restitution": "0.7"})
 
     def test_damaged_pickles_are_refused(self):
         saved = pickle.dumps(clatter.load(DISKS))
-        for place in (len(saved) // 2, len(saved) - 40):
+        for place in (len(saved) // 4, len(saved) // 2):
             damaged = saved[:place] + bytes([saved[place] ^ 1]) + saved[place + 1 :]
             with self.assertRaises(clatter.SceneError):
                 pickle.loads(damaged)

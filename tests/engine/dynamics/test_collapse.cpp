@@ -75,7 +75,7 @@ TEST_CASE("Standstill: a collapse is found at the same collision in a run that w
 }
 
 TEST_CASE("Standstill: particles without room stop the run") {
-  for (const double restitution : {1.0, 0.9, 0.5}) {
+  for (const double restitution : {1.0, 0.9}) {
     CAPTURE(restitution);
     Model<2> row = periodic_box(2.0, 4.0);
     row.restitution = restitution;

@@ -81,8 +81,8 @@ Run taken_up(const Scene& scene, const Measure& measure, const Run& before) {
   const std::string saved = before.measurement->save();
   Run run{std::make_unique<Simulation<2>>(model_of<2>(scene, 5), before.simulation->save()),
           nullptr};
-  run.measurement =
-      std::make_unique<Measurement<2>>(*run.simulation, measure, ArchiveReader(saved, "saved"));
+  run.measurement = std::make_unique<Measurement<2>>(*run.simulation, measure, kEnd,
+                                                     ArchiveReader(saved, "saved"));
   // Saving does not change the measurement: a second save is equal.
   REQUIRE(run.measurement->save() == saved);
   return run;
@@ -199,8 +199,8 @@ TEST_CASE("Measurement: spins that smooth laws keep leave no gap in the ledger")
   Run smooth{std::make_unique<Simulation<2>>(model_of<2>(scene, 5), rough.simulation->save()),
              nullptr};
   const std::string saved = rough.measurement->save();
-  smooth.measurement =
-      std::make_unique<Measurement<2>>(*smooth.simulation, measure, ArchiveReader(saved, "saved"));
+  smooth.measurement = std::make_unique<Measurement<2>>(*smooth.simulation, measure, kEnd,
+                                                        ArchiveReader(saved, "saved"));
   CHECK(smooth.simulation->spin_energy() == rough.simulation->spin_energy());
   smooth.simulation->run_until(kEnd);
   CHECK(smooth.measurement->result().ledger_residual < 1e-12);
@@ -225,6 +225,6 @@ TEST_CASE("Measurement: bytes of no measurement are refused") {
        {std::string(), saved + '\0', saved.substr(0, saved.size() - 1), saved.substr(8),
         with_window(1e-9), with_window(0.0), with_window(-1.0), with_window(std::nan(""))}) {
     Simulation<2> other(simulation.model(), simulation.save());
-    CHECK_THROWS_AS(Measurement<2>(other, measure, ArchiveReader(bytes, "saved")), UserError);
+    CHECK_THROWS_AS(Measurement<2>(other, measure, kEnd, ArchiveReader(bytes, "saved")), UserError);
   }
 }
