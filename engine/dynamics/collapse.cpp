@@ -72,6 +72,11 @@ static double free_speed(const Model<D>& model) {
   return std::max(fall, model.bulk_drive ? model.bulk_drive->kick_speed : 0.0);
 }
 
+template <int D>
+double usual_speed(const Model<D>& model, double start_speed) {
+  return std::max({drive_of(model), start_speed, free_speed(model)});
+}
+
 // Walls with restitution > 1 multiply speeds: beyond 1e60, products of speeds would soon overflow.
 // Walls that only add speed, faster than it is lost, make speeds grow as exp(t). The number of
 // collisions grows alike, and one more e-folding beyond kMaxGrowth costs a million of them. Losses
@@ -86,9 +91,9 @@ double fastest_speed(const Model<D>& model, double start_speed, bool piston) {
   constexpr double kFastest = 1e60;
   constexpr double kMaxGrowth = 1e6, kMaxCompressed = 1e3;
   if (gains(model)) return kFastest;
-  const double drive = drive_of(model);
-  const double usual = std::max({drive, start_speed, free_speed(model)});
-  const double heated = drive > 0.0 ? kMaxGrowth * std::max(usual, emission_of(model)) : kNever;
+  const double usual = usual_speed(model, start_speed);
+  const double heated =
+      drive_of(model) > 0.0 ? kMaxGrowth * std::max(usual, emission_of(model)) : kNever;
   const double compressed = piston ? kMaxCompressed * std::max(usual, emission_of(model)) : kNever;
   return std::min(heated, compressed);
 }
@@ -155,6 +160,8 @@ PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double 
                       "collapse.contact_time=" + contact_time);
 }
 
+template double usual_speed<2>(const Model<2>&, double);
+template double usual_speed<3>(const Model<3>&, double);
 template double fastest_speed<2>(const Model<2>&, double, bool);
 template double fastest_speed<3>(const Model<3>&, double, bool);
 template PhysicalStop divergence<2>(const Model<2>&, double, double, bool);

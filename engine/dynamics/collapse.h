@@ -16,6 +16,11 @@ PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double 
 /// the rounding of positions.
 PhysicalStop crowding(const Watchdog& watchdog, double time);
 
+/// Speed that particles of a run reach at least, whose fastest particle began with `start_speed`:
+/// by walls, a fall across the box or a kick.
+template <int D>
+double usual_speed(const Model<D>& model, double start_speed);
+
 /// Speed limit of a run whose fastest particle began with `start_speed`. A faster particle shows
 /// that walls heat the gas without bound, or that a piston leaves it no room. kNever without a
 /// piston if walls do not heat. `piston`: whether the piston has moved.

@@ -286,6 +286,7 @@ template <int D>
 void Simulation<D>::look_for_room(double elapsed, std::uint64_t collisions) {
   constexpr std::uint64_t kCollisionsPerLook = 200;
   constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
+  constexpr double kFaster = 1e3;  // a collapse makes collisions faster than before
   looked_for_ += elapsed;
   looked_at_ += collisions;
   if (looked_at_ < kCollisionsPerLook) return;
@@ -294,11 +295,13 @@ void Simulation<D>::look_for_room(double elapsed, std::uint64_t collisions) {
   const auto crowded = [&](double speed) {
     return looked_for_ * speed <= rounding * static_cast<double>(looked_at_);
   };
-  // The temperature takes time, and is needed only if the first particles had no more room.
-  const double speed = crowded(start_speed_) ? std::sqrt(D * temperature()) : start_speed_;
+  // The temperature takes time, and is needed only if usual particles have no room.
+  const double usual = usual_speed<D>(model_, start_speed_);
+  const double speed = crowded(usual) ? std::max(usual, std::sqrt(D * temperature())) : usual;
   if (!crowded_ && speed > 0.0 && crowded(speed)) {
     const auto& watchdog = loop_.watchdog();
-    crowded_ = !watchdog || watchdog->mean_collision_time() * speed <= rounding;
+    crowded_ = !watchdog || watchdog->mean_collision_time() * static_cast<double>(looked_at_) <=
+                                kFaster * looked_for_;
     if (crowded_) loop_.watch_closely(model_.box.maxCoeff() / speed);
   }
   looked_for_ = 0.0;
