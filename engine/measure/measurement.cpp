@@ -79,7 +79,7 @@ Measurement<D>::Measurement(Simulation<D>& simulation, const Measure& measure, A
       totals_(simulation),
       observables_(simulation, measure) {
   visit(saved);
-  if (started_) observables_.restore(saved);
+  if (started_) observables_.restore(saved, averages_start_);
   saved.finish();
   saved.require(window_ > 0.0 && !is_overdue());
   // A change of laws may have added or removed spins: adds zeros, or removes the series.
@@ -87,16 +87,19 @@ Measurement<D>::Measurement(Simulation<D>& simulation, const Measure& measure, A
   observe();
 }
 
-// Whether a sample or the end of a window should have been long ago. A run would catch up with all
-// that are missing.
+// Whether a sample or the end of a window should have been long ago.
 template <int D>
 bool Measurement<D>::is_overdue() const {
-  constexpr double kLate = 1e-6;  // of the time
-  const double windows = started_ ? static_cast<double>(windows_.size() + 1) : 0.0;
-  const double samples = static_cast<double>(series_time_.size());
-  const double next = std::min(averages_start_ + windows * window_,
-                               series_start_ + samples * measure_.series_interval);
-  return !(next >= simulation_.time() * (1.0 - kLate));
+  return simulation_.is_overdue(averages_start_, window_, started_ ? windows_.size() + 1 : 0) ||
+         simulation_.is_overdue(series_start_, measure_.series_interval, series_time_.size()) ||
+         (samples_cells() &&
+          simulation_.is_overdue(averages_start_ + measure_.interval, measure_.interval, samples_));
+}
+
+// Whether averages of fields come from samples.
+template <int D>
+bool Measurement<D>::samples_cells() const {
+  return measure_.estimator == Estimator::Snapshot && !measure_.fields.empty();
 }
 
 template <int D>
@@ -130,7 +133,7 @@ void Measurement<D>::observe() {
       series_time_.size());
   // Timers of samples come before timers of windows, so that a sample at a window's end belongs to
   // it.
-  if (measure_.estimator == Estimator::Snapshot && !measure_.fields.empty()) {
+  if (samples_cells()) {
     simulation_.every(
         averages_start_ + measure_.interval, measure_.interval,
         [this](double) {

@@ -92,6 +92,7 @@ class Measurement {
 
  private:
   bool is_overdue() const;
+  bool samples_cells() const;
   void observe();
   void sample(double time);
   template <class Archive>
