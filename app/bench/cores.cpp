@@ -1,6 +1,7 @@
 #include "app/bench/cores.h"
 
 #include <fmt/format.h>
+#include <fmt/printf.h>
 
 #include <algorithm>
 #include <chrono>
@@ -16,6 +17,7 @@
 #include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/publish/scheduled_run.h"
+#include "engine/system/allocation.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {
@@ -119,8 +121,8 @@ int bench_cores(const std::string& json, const std::string& plot_file, const Cor
   const std::vector<EngineCell> cells = cores_cells(table);
   std::fprintf(stderr, "elastic %s, periodic box; Mcoll/s: 10^6 pair collisions per second\n",
                disks ? "disks" : "spheres");
-  std::printf("%10s %6s %8s %9s %9s %6s %10s %7s\n", "N", "phi", "threads", "Mcoll/s", "of whole",
-              "busy", "redundant", "redone");
+  print(fmt::sprintf("%10s %6s %8s %9s %9s %6s %10s %7s\n", "N", "phi", "threads", "Mcoll/s",
+                     "of whole", "busy", "redundant", "redone"));
   Json rows = Json::array();
   std::vector<CoresRate> all;
   for (const auto& [count, phi] : cells) {
@@ -133,10 +135,9 @@ int bench_cores(const std::string& json, const std::string& plot_file, const Cor
       all.push_back(rate);
       const double of_whole = rate.rate / rates.front().rate;
       const bool whole = rate.threads == 0;
-      std::printf("%10d %6.3f %8s %9.3f %9.2f %6.2f %10.2f %7.3f\n", count, phi,
-                  whole ? "whole" : std::to_string(rate.threads).c_str(), rate.rate, of_whole,
-                  rate.busy, rate.redundant, rate.redone);
-      std::fflush(stdout);
+      print(fmt::sprintf("%10d %6.3f %8s %9.3f %9.2f %6.2f %10.2f %7.3f\n", count, phi,
+                         whole ? "whole" : std::to_string(rate.threads).c_str(), rate.rate,
+                         of_whole, rate.busy, rate.redundant, rate.redone));
       rows.push_back({{"count", count},
                       {disks ? "area_fraction" : "volume_fraction", phi},
                       {"threads", rate.threads},

@@ -1,6 +1,7 @@
 #include "app/bench/engine.h"
 
 #include <fmt/format.h>
+#include <fmt/printf.h>
 
 #include <algorithm>
 #include <cmath>
@@ -79,17 +80,17 @@ Json print_rates(const std::vector<EngineCell>& cells, int dimension,
   const bool disks = dimension == 2;
   std::fprintf(stderr, "elastic %s, periodic box; Mcoll/s: 10^6 pair collisions per CPU second\n",
                disks ? "disks" : "spheres");
-  std::printf("%10s %6s %9s %9s %11s\n", "N", "phi", "Mcoll/s", "setup s",
-              disks ? "bytes/disk" : "bytes/sph.");
+  print(fmt::sprintf("%10s %6s %9s %9s %11s\n", "N", "phi", "Mcoll/s", "setup s",
+                     disks ? "bytes/disk" : "bytes/sph."));
   Json json = Json::array();
   for (const auto& [count, fraction] : cells) {
     EngineRate r = measure_engine(elastic_gas(count, fraction, dimension));
     r.fraction = fraction;  // the box differs by rounding
     rates.push_back(r);
     const double bytes = r.bytes_per_particle;
-    std::printf("%10d %6.3f %9.3f %9.3f %11s\n", r.count, r.fraction, r.rate, r.setup_seconds,
-                std::isnan(bytes) ? "-" : fmt::format("{:.0f}", bytes).c_str());
-    std::fflush(stdout);
+    print(fmt::sprintf("%10d %6.3f %9.3f %9.3f %11s\n", r.count, r.fraction, r.rate,
+                       r.setup_seconds,
+                       std::isnan(bytes) ? "-" : fmt::format("{:.0f}", bytes).c_str()));
     json.push_back({{"count", r.count},
                     {disks ? "area_fraction" : "volume_fraction", r.fraction},
                     {"million_collisions_per_cpu_second", r.rate},
@@ -100,15 +101,14 @@ Json print_rates(const std::vector<EngineCell>& cells, int dimension,
 }
 
 Json print_inhomogeneous(int count) {
-  std::printf("%-24s %10s %6s %9s %9s\n", "gas", "N", "phi", "Mcoll/s", "of homog.");
+  print(fmt::sprintf("%-24s %10s %6s %9s %9s\n", "gas", "N", "phi", "Mcoll/s", "of homog."));
   Json json = Json::array();
   for (const Inhomogeneous& gas : inhomogeneous_gases(count)) {
     const double homogeneous =
         measure_engine(elastic_gas(count, gas.scene.packing_fraction())).rate;
     const EngineRate r = measure_engine(gas.scene, gas.after);
-    std::printf("%-24s %10d %6.3f %9.3f %9.2f\n", gas.name, r.count, r.fraction, r.rate,
-                r.rate / homogeneous);
-    std::fflush(stdout);
+    print(fmt::sprintf("%-24s %10d %6.3f %9.3f %9.2f\n", gas.name, r.count, r.fraction, r.rate,
+                       r.rate / homogeneous));
     json.push_back({{"gas", gas.name},
                     {"count", r.count},
                     {"area_fraction", r.fraction},

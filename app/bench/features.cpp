@@ -1,5 +1,6 @@
 #include "app/bench/features.h"
 
+#include <fmt/printf.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include <string_view>
 
 #include "app/system/exit_code.h"
+#include "app/system/outputs.h"
 #include "app/system/process_usage.h"
 #include "engine/checkpoint/checkpoint.h"
 #include "engine/measure/balance.h"
@@ -252,11 +254,11 @@ int bench_features(const std::string& json, int count) {
     }
   }
 
-  std::printf("%-32s %9s %7s\n", "with", "Mcoll/s", "rate");
+  print(fmt::sprintf("%-32s %9s %7s\n", "with", "Mcoll/s", "rate"));
   auto rows = nlohmann::ordered_json::array();
   for (std::size_t k = 0; k < added.size(); ++k) {
     const double rate = 1e-6 * median(rates[k]), ratio = median(ratios[k]);
-    std::printf("%-32s %9.3f %7.3f\n", added[k].name.c_str(), rate, ratio);
+    print(fmt::sprintf("%-32s %9.3f %7.3f\n", added[k].name.c_str(), rate, ratio));
     rows.push_back({{"feature", added[k].name},
                     {"million_collisions_per_cpu_second", rate},
                     {"rate_over_bare", ratio}});

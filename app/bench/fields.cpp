@@ -1,6 +1,7 @@
 #include "app/bench/fields.h"
 
 #include <fmt/format.h>
+#include <fmt/printf.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -9,6 +10,7 @@
 #include <string>
 
 #include "app/system/exit_code.h"
+#include "app/system/outputs.h"
 #include "app/system/process_usage.h"
 #include "engine/measure/balance.h"
 #include "engine/measure/profile.h"
@@ -127,22 +129,22 @@ int bench_fields(double duration, const std::string& json) {
                duration);
   const std::vector<Outcome> outcomes = observe_all(scene, duration, ways);
   const Outcome& bare = outcomes.front();
-  std::printf("%-18s %8s %13s %12s %16s\n", "estimator", "cost", "ns/collision", "variance",
-              "cost x variance");
+  print(fmt::sprintf("%-18s %8s %13s %12s %16s\n", "estimator", "cost", "ns/collision", "variance",
+                     "cost x variance"));
   auto rows = nlohmann::ordered_json::array();
   for (std::size_t k = 0; k < ways.size(); ++k) {
     const Outcome& outcome = outcomes[k];
     const double cost = outcome.cpu_seconds / bare.cpu_seconds;
     const double added = 1e9 * (outcome.cpu_seconds - bare.cpu_seconds) / outcome.collisions;
-    std::printf("%-18s %8.3f %13.1f", ways[k].name.c_str(), cost, added);
+    print(fmt::sprintf("%-18s %8.3f %13.1f", ways[k].name.c_str(), cost, added));
     nlohmann::ordered_json row = {
         {"estimator", ways[k].name}, {"cost", cost}, {"added_nanoseconds_per_collision", added}};
     if (!ways[k].fields.empty()) {
-      std::printf(" %12.3e %16.3e", outcome.variance, cost * outcome.variance);
+      print(fmt::sprintf(" %12.3e %16.3e", outcome.variance, cost * outcome.variance));
       row["variance"] = outcome.variance;
       row["cost_times_variance"] = cost * outcome.variance;
     }
-    std::printf("\n");
+    print("\n");
     rows.push_back(row);
   }
   if (!json.empty()) write_file(json, rows.dump(1) + "\n");

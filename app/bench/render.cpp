@@ -1,5 +1,6 @@
 #include "app/bench/render.h"
 
+#include <fmt/printf.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -13,6 +14,7 @@
 
 #include "app/runs/run.h"
 #include "app/system/exit_code.h"
+#include "app/system/outputs.h"
 #include "app/system/process_usage.h"
 #include "engine/dimension.h"
 #include "engine/physics/theory.h"
@@ -266,14 +268,13 @@ void add_rows(nlohmann::ordered_json& rows, const Gl& gl, int count, bool with_f
   LiveField<D> field(*simulation, scene.view);
   for (const Size size : {Size{1280, 720}, {1920, 1080}}) {
     const Times times = Filming<D>(gl, *simulation, field, scene.view, size).measure(with_films);
-    std::printf("%8d %10s", count, size_text(size).c_str());
+    print(fmt::sprintf("%8d %10s", count, size_text(size).c_str()));
     nlohmann::ordered_json row = {{"count", count}, {"width", size.width}, {"height", size.height}};
     for (const char* stage : stages_of(D, with_films)) {
-      std::printf(" %8.2f", times.at(stage));
+      print(fmt::sprintf(" %8.2f", times.at(stage)));
       row[std::string(stage) + "_milliseconds"] = times.at(stage);
     }
-    std::printf("\n");
-    std::fflush(stdout);
+    print("\n");
     rows.push_back(row);
   }
 }
@@ -295,9 +296,9 @@ int bench_render(const std::string& json, int count, int dimension) {
       with_films ? "x264: the encoder of films; veryfast: x264 with this preset and pictures in "
                    "yuv420p"
                  : "without the columns of the encoder, which need ffmpeg (apt install ffmpeg)");
-  std::printf("%8s %10s", "N", "size");
-  for (const char* stage : stages_of(dimension, with_films)) std::printf(" %8s", stage);
-  std::printf("\n");
+  print(fmt::sprintf("%8s %10s", "N", "size"));
+  for (const char* stage : stages_of(dimension, with_films)) print(fmt::sprintf(" %8s", stage));
+  print("\n");
   auto rows = nlohmann::ordered_json::array();
   for (const int number : counts) {
     with_dimension(dimension, [&](auto dimension) {

@@ -1,5 +1,7 @@
 #include "app/bench/timeline.h"
 
+#include <fmt/printf.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -8,6 +10,7 @@
 
 #include "app/bench/window.h"
 #include "app/system/exit_code.h"
+#include "app/system/outputs.h"
 #include "app/system/process_usage.h"
 #include "engine/publish/watched_run.h"
 #include "engine/system/write_file.h"
@@ -51,14 +54,14 @@ int bench_timeline(const std::string& json, int count) {
   std::fprintf(stderr,
                "10 minutes of the vibrated box at its speed, temperature field; CPU time of jumps "
                "to random times, memory of the recorded states\n");
-  std::printf("%10s %12s %12s %12s\n", "N", "median ms", "longest ms", "MB");
+  print(fmt::sprintf("%10s %12s %12s %12s\n", "N", "median ms", "longest ms", "MB"));
   auto rows = nlohmann::ordered_json::array();
   for (const int particles : count ? std::vector{count} : std::vector{1000, 20'000}) {
     const Scene scene = window_scene(particles);
     const Jumps jumps = measure(scene, kSeconds * scene.view.speed);
     const double median = 1e3 * jumps.seconds[jumps.seconds.size() / 2];
     const double longest = 1e3 * jumps.seconds.back();
-    std::printf("%10d %12.2f %12.2f %12.2f\n", particles, median, longest, jumps.megabytes);
+    print(fmt::sprintf("%10d %12.2f %12.2f %12.2f\n", particles, median, longest, jumps.megabytes));
     rows.push_back({{"count", particles},
                     {"median_milliseconds", median},
                     {"longest_milliseconds", longest},

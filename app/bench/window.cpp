@@ -1,5 +1,7 @@
 #include "app/bench/window.h"
 
+#include <fmt/printf.h>
+
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <imgui.h>
@@ -14,6 +16,7 @@
 #include <vector>
 
 #include "app/system/exit_code.h"
+#include "app/system/outputs.h"
 #include "app/view/desktop.h"
 #include "app/view/gui.h"
 #include "engine/scene/scene_file.h"
@@ -107,8 +110,8 @@ int bench_window(const std::string& json, int count) {
   const double most = 1e3 * times[times.size() * 99 / 100];
   std::fprintf(stderr, "window of %dx%d, temperature field, OpenGL without effect; CPU time\n",
                size.width, size.height);
-  std::printf("%10s %12s %12s\n%10d %12.2f %12.2f\n", "N", "median ms", "99 % ms", count, median,
-              most);
+  print(fmt::sprintf("%10s %12s %12s\n%10d %12.2f %12.2f\n", "N", "median ms", "99 % ms", count,
+                     median, most));
   const nlohmann::ordered_json row = {
       {"count", count}, {"median_milliseconds", median}, {"percentile_99_milliseconds", most}};
   if (!json.empty()) write_file(json, row.dump(1) + "\n");

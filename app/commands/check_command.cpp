@@ -12,11 +12,11 @@
 #include "app/runs/feature_cost.h"
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
-#include "app/system/process_usage.h"
 #include "engine/dynamics/tile_sizes.h"
 #include "engine/physics/theory.h"
 #include "engine/scene/piston.h"
 #include "engine/scene/text.h"
+#include "engine/system/allocation.h"
 
 namespace clatter {
 
@@ -35,6 +35,12 @@ void print_parts(const Scene& scene) {
                  off ? "-" : fmt::format("{:.0f}", share).c_str(),
                  off ? "-" : cost_text(part.price).c_str(), part.extent.c_str());
   }
+}
+
+void print_allocation() {
+  std::fprintf(stderr, "This process may use %s and %.3g GB of memory.\n",
+               counted(static_cast<std::size_t>(processors()), "processor").c_str(),
+               1e-9 * available_memory());
 }
 
 void print_way(const Scene& scene) {
@@ -71,6 +77,7 @@ void print_packing(const Scene& scene) {
 
 int check(const CommonOptions& options) {
   const Scene scene = load(options);
+  require_room(scene);
   print(scene_to_toml(scene));
   if (options.quiet) return kOk;
   const bool disks = scene.dimension() == 2;
@@ -85,6 +92,7 @@ int check(const CommonOptions& options) {
   std::fputs(".\n", stderr);
   print_events(scene, options.until.value_or(scene.measure.burn_in + scene.measure.duration));
   print_packing(scene);
+  print_allocation();
   print_way(scene);
   print_parts(scene);
   return kOk;

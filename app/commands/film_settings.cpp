@@ -58,10 +58,9 @@ FrameRange parse_frames(const std::string& text) {
 // Number of frames. `from`, `speed` and `fps` are known. The end is `to`, or the previous end.
 long count_frames(const FrameTimes& times, const std::optional<double>& to) {
   constexpr double kFilmSeconds = 20.0;
-  constexpr double kMaxFrames = 1e7;
   const double seconds = to ? times.seconds_at(*to) : kFilmSeconds;
   const double frames = std::max(1.0, std::round(seconds * times.fps));
-  if (frames <= kMaxFrames) return static_cast<long>(frames);
+  if (frames <= static_cast<double>(kMostFrames)) return static_cast<long>(frames);
   throw UserError({"--to", 0, 0}, "the film would have " + number_text(frames) + " frames",
                   "choose a larger --speed, or an earlier --to");
 }

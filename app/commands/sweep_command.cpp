@@ -16,8 +16,8 @@
 #include "app/sweep/sweep_table.h"
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
-#include "app/system/process_usage.h"
 #include "engine/error.h"
+#include "engine/system/allocation.h"
 #include "engine/whole_number.h"
 
 namespace clatter {
@@ -31,8 +31,6 @@ struct SweepOptions {
   std::optional<int> threads;
   std::vector<std::string> ids;
   bool prepare = false;
-
-  int processes() const { return threads.value_or(processors()); }
 };
 
 // First and last number of each part of words such as 17 and 20-25,30.
@@ -67,7 +65,9 @@ void tell_omitted_points(const SweepFolder& folder, const Sweep& sweep) {
 int measure_sweep(const SweepFolder& folder, const SweepOptions& options) {
   const Sweep sweep = folder.sweep();
   while (true) {
-    const int code = execute_sweep(folder, options.processes(), options.common.shown_progress());
+    const int processes =
+        options.threads ? *options.threads : fitting_processors(run_memory(folder));
+    const int code = execute_sweep(folder, processes, options.common.shown_progress());
     if (code == kInterrupted || !sweep.refinement) return code;
     const std::vector<SweepPoint> points = refined_points(folder, sweep);
     if (points.empty()) {
@@ -130,7 +130,8 @@ void add_execution_flags(CLI::App& command, SweepOptions& options) {
       ->type_name("DIR");
   command
       .add_option("--threads", options.threads,
-                  "Number of runs at once. Default: the number of processors.")
+                  "Number of runs at once. Default: the number of processors, or fewer if the "
+                  "memory has room for fewer.")
       ->check(whole_number_between(1, 256));
   add_quiet_and_progress(command, options.common);
 }

@@ -51,6 +51,7 @@ bool PlotRecorder<D>::resume(const std::string& saved) {
   ArchiveReader of_samples(samples, kFile);
   visit(of_samples);
   of_samples.finish();
+  of_samples.require(!simulation.is_overdue(0.0, spacing_, next_));
   if (has_profile_) {
     ArchiveReader of_profile(profile, kFile);
     profile_.emplace(simulation, profile_window(), axis_, of_profile);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "engine/error.h"
+#include "engine/system/write_file.h"
 
 namespace clatter {
 
@@ -56,6 +57,7 @@ void GrowingFile::write(std::uint64_t place, std::string_view bytes) {
 
 void GrowingFile::sync() {
   if (lost_ == 0 && file_ && !file_.sync()) lost_ = errno;
+  if (lost_ == 0 && file_ && !is_at(file_, path_)) lost_ = ENOENT;
   errno = lost_;
   if (lost_ != 0) fail();
 }

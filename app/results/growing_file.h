@@ -22,8 +22,9 @@ class GrowingFile {
   void append(std::string_view records);
   /// Writes bytes at a place in the file, counted from its begin. Throws RunError.
   void write(std::uint64_t place, std::string_view bytes);
-  /// Waits until the records are on the disk. Throws RunError. After a failure every later call
-  /// throws, because the system reports a lost record once. Does nothing after close().
+  /// Waits until the records are on the disk. Throws RunError, also if the file has been removed.
+  /// After a failure every later call throws, because the system reports a lost record once. Does
+  /// nothing after close().
   void sync();
   /// Ends the file with the records on the disk. Throws RunError.
   void close();

@@ -59,8 +59,9 @@ void copy_records(const std::filesystem::path& path, std::size_t particles, bool
 // from the next attempt.
 void restore_records(const std::filesystem::path& path, std::size_t particles, bool spins) {
   const std::filesystem::path target = frames_path(path, TrajectoryFormat::H5md);
-  const NewFile made = new_file_beside(target);
+  NewFile made = new_file_beside(target);
   if (!made.file) throw RunError("cannot write " + target.string() + ": " + std::strerror(errno));
+  made.file.close();
   try {
     read_hdf5_apart(path, [&] {
       copy_records(path, particles, spins, made.path);

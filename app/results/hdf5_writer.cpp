@@ -108,8 +108,9 @@ void write_large_hdf5(const std::filesystem::path& path, std::uint64_t numbers,
   }
   try {
     H5::Exception::dontPrint();
-    H5::H5File file(made.path.string(), H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT,
-                    oldest_format());
+    H5::FileAccPropList access = oldest_format();
+    H5Pset_file_locking(access.getId(), false, true);  // `made` has the lock
+    H5::H5File file(made.path.string(), H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, access);
     fill(file);
     file.close();
     rename_synced(made.path, target);

@@ -5,8 +5,8 @@
 #include <system_error>
 
 #include "engine/error.h"
+#include "engine/system/allocation.h"
 #include "engine/system/isolated.h"
-#include "engine/system/platform.h"
 
 namespace clatter {
 
@@ -18,7 +18,7 @@ static WorkLimits limits_for(std::uintmax_t file_size) {
   constexpr int kIdle = 10;                                            // of processor times
   const auto bytes = static_cast<double>(file_size);
   const double memory =
-      std::min(kMemory + kMemoryPerByte * bytes, std::max(kMemory, machine_memory()));
+      std::min(kMemory + kMemoryPerByte * bytes, std::max(kMemory, available_memory()));
   const int time = static_cast<int>(std::min(kTime + kTimePerByte * bytes, kLongest));
   return {.memory = static_cast<std::uint64_t>(memory),
           .processor_time = time,

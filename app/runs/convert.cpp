@@ -144,8 +144,9 @@ void write_frame(const std::filesystem::path& path, TrajectoryFormat format,
     written.images.push_back(Eigen::Map<const Vec<D>>(image.data()).template cast<int>());
   }
   const std::filesystem::path target = target_of(path);
-  const NewFile made = new_file_beside(target);
+  NewFile made = new_file_beside(target);
   if (!made.file) throw RunError("cannot write " + path.string() + ": " + std::strerror(errno));
+  made.file.close();
   try {
     const auto file = open_trajectory<D>(made.path, format, model, frame.positions.size(),
                                          !frame.spins.empty(), 0);

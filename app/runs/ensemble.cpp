@@ -8,12 +8,13 @@
 #include <thread>
 
 #include "app/results/result_json.h"
+#include "app/runs/feature_cost.h"
 #include "app/runs/run.h"
 #include "app/system/interrupt.h"
-#include "app/system/process_usage.h"
 #include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/publish/scheduled_run.h"
+#include "engine/system/allocation.h"
 
 namespace clatter {
 
@@ -39,7 +40,8 @@ class Replicas {
         failed_(done_.size()) {}
 
   void run() {
-    const auto wanted = static_cast<std::size_t>(ensemble_.threads.value_or(processors()));
+    const auto wanted =
+        static_cast<std::size_t>(ensemble_.threads.value_or(fitting_processors(memory_of(scene_))));
     std::vector<std::jthread> threads;
     for (std::size_t k = 0; k < std::min(wanted, done_.size()); ++k) {
       threads.emplace_back([this] { work(); });

@@ -15,7 +15,7 @@ struct Ensemble {
   int replicas = 1;
   std::uint64_t first_seed = 1;  ///< the other seeds follow it
   double end = 0.0;              ///< simulation time of each
-  std::optional<int> threads;    ///< number of threads; absent: the number of processors
+  std::optional<int> threads;    ///< number of threads; absent: fitting_processors()
 };
 
 /// The result of the complete replicas, and the error of a failed one.

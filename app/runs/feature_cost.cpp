@@ -12,6 +12,7 @@
 #include "engine/observables/observables.h"
 #include "engine/physics/theory.h"
 #include "engine/scene/enum_names.h"
+#include "engine/system/allocation.h"
 
 namespace clatter {
 
@@ -129,6 +130,19 @@ double memory_of(const Scene& scene) {
   double bytes = 0.0;
   for (const FeatureCost& part : feature_costs(scene)) bytes += part.bytes;
   return bytes;
+}
+
+void require_room(const Scene& scene) {
+  require_memory(scene);
+  const double there = available_memory(), needed = memory_of(scene);
+  if (needed <= there) return;
+  const std::vector<FeatureCost> parts = feature_costs(scene);
+  const FeatureCost& largest = *std::ranges::max_element(parts, {}, &FeatureCost::bytes);
+  throw UserError({},
+                  fmt::format("the scene takes about {:.3g} GB, and this process may use {:.3g} GB",
+                              1e-9 * needed, 1e-9 * there),
+                  fmt::format("reduce the largest part: {}, with {:.3g} GB", largest.name,
+                              1e-9 * largest.bytes));
 }
 
 std::string cost_text(double price) {

@@ -24,6 +24,9 @@ std::vector<FeatureCost> feature_costs(const Scene& scene);
 /// Memory of a scene in bytes: the sum of its features.
 double memory_of(const Scene& scene);
 
+/// Throws UserError if a scene needs more than available_memory().
+void require_room(const Scene& scene);
+
 /// Price of field averages, by estimator.
 double cost_of(Estimator estimator);
 /// Price of balances.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "app/runs/sound_preview.h"
@@ -41,12 +42,35 @@ static void visit(Archive& io, CellState& state) {
   io(ranges, camera);
 }
 
+// Whether the sound ends at the next frame, or, in a complete film, at the last.
+static bool fits(const std::optional<FilmSound>& sound, long next, double fps) {
+  if (!sound || !sound->synthesiser) return true;
+  return sound->samples() <= samples_before(next, fps) &&
+         sound->samples() >= samples_before(std::max(next - 1, 0L), fps);
+}
+
+// Whether a film can have this state: its settings are those of flags, and its next frame is in it.
+static bool makes_sense(const FilmState& state) {
+  constexpr int kMostSamples = 4, kLargestSide = 1 << 20;
+  constexpr double kMostFps = 1000.0;
+  const FrameTimes& times = state.times;
+  return times.count >= 1 && times.count <= kMostFrames && state.next >= 0 &&
+         state.next <= times.count && times.fps >= 1.0 && times.fps <= kMostFps &&
+         times.speed > 0.0 && std::isfinite(times.speed) && std::isfinite(times.from) &&
+         state.samples >= 1 && state.samples <= kMostSamples &&
+         std::min(state.size.width, state.size.height) >= 1 &&
+         std::max(state.size.width, state.size.height) <= kLargestSide && state.shutter >= 0.0 &&
+         state.shutter <= 1.0 && state.begin.value_or(0) >= 0 &&
+         state.begin.value_or(0) <= times.count && fits(state.sound, state.next, times.fps);
+}
+
 template <class Archive>
 static void visit(Archive& io, FilmState& state) {
   auto& [times, size, samples, shutter, transparent, overlay, picture, sound, next, begin, shown,
          plots, checksums, notes, cells, companions] = state;
   io(times, size, samples, shutter, transparent, overlay, picture, sound, next, begin, shown, plots,
      checksums, notes, cells, companions);
+  io.require(makes_sense(state));
 }
 
 std::string to_bytes(FilmState state) {

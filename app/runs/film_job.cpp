@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -166,6 +167,8 @@ std::filesystem::path write_film_job(const FilmJob& job) {
   ArrayJob array;
   array.folder = std::filesystem::absolute(out += ".slurm");
   array.tasks = parts_of(job);
+  const std::optional<std::size_t> most = most_array_tasks();
+  require_array_size(array, most, "--slurm", fmt::format("give at most {}", most.value_or(0)));
   array.body = drawing_lines(job);
   array.after = joining_lines(job);
   array.megabytes = memory_of(job);

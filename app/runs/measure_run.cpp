@@ -18,6 +18,7 @@
 #include "app/results/trajectory.h"
 #include "app/results/vtk_files.h"
 #include "app/runs/ensemble.h"
+#include "app/runs/feature_cost.h"
 #include "app/runs/run.h"
 #include "app/system/exit_code.h"
 #include "app/system/interrupt.h"
@@ -31,6 +32,7 @@
 #include "engine/scene/enum_names.h"
 #include "engine/scene/state_file.h"
 #include "engine/scene/text.h"
+#include "engine/system/allocation.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {
@@ -402,6 +404,7 @@ int measure(const MeasureOptions& options) {
     fitted = std::max(fitted, std::min(burn_in, resumed->time()));
   }
   require_bounded_samples(scene.measure, 0.0, end);
+  require_room(scene);
   if (!options.trajectory.empty() && end / options.every > kMaxSamples) {
     throw UserError({"--every", 0, 0}, "the trajectory would have more than 1e7 frames",
                     "choose at least " + number_text(end / kMaxSamples));

@@ -73,6 +73,7 @@ TrajectoryRecorder<D>::TrajectoryRecorder(const std::filesystem::path& path, dou
                                  : "the trajectory of the checkpoint has no angular velocities",
                     "resume the run without changes of roughness, or without --trajectory");
   }
+  reader.require(!simulation.is_overdue(0.0, every, before.next));
   next_ = before.next;
   open(simulation, before.bytes);
 }

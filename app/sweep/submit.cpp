@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
+#include <string>
 
 #include "app/runs/feature_cost.h"
 #include "app/sweep/executor.h"
@@ -34,9 +36,10 @@ std::vector<std::string> chunks_of(const SweepFolder& folder, std::size_t size) 
   return chunks;
 }
 
-// Megabytes that the largest run needs.
-double memory_of(const SweepFolder& folder) {
-  constexpr double kProgram = 100.0, kMargin = 1.5;
+}  // namespace
+
+double run_memory(const SweepFolder& folder) {
+  constexpr double kProgram = 1e8, kMargin = 1.5;
   const Sweep sweep = folder.sweep();
   double most = 0.0;
   std::set<std::string> seen;
@@ -49,10 +52,8 @@ double memory_of(const SweepFolder& folder) {
       // The run will report it.
     }
   }
-  return std::ceil(kProgram + kMargin * 1e-6 * most);
+  return kProgram + kMargin * most;
 }
-
-}  // namespace
 
 std::string parallel_line(const SweepFolder& folder, int chunk) {
   const auto chunks = chunks_of(folder, static_cast<std::size_t>(std::max(1, chunk)));
@@ -69,19 +70,24 @@ std::string parallel_line(const SweepFolder& folder, int chunk) {
 
 std::filesystem::path write_batch_script(const SweepFolder& folder, int chunk,
                                          const TaskLimits& limits) {
-  constexpr std::size_t kMostTasks = 1000;  // Slurm's default is 1001
+  constexpr std::size_t kMostTasks = 1000;
   const std::size_t open = SweepState(folder).wanted.size();
-  const std::size_t size = chunk > 0
-                               ? static_cast<std::size_t>(chunk)
-                               : std::max<std::size_t>(1, (open + kMostTasks - 1) / kMostTasks);
+  const std::optional<std::size_t> most = most_array_tasks();
+  const auto size_for = [open](std::size_t tasks) {
+    return std::max<std::size_t>(1, (open + tasks - 1) / tasks);
+  };
+  const std::size_t size = chunk > 0 ? static_cast<std::size_t>(chunk)
+                                     : size_for(std::min(kMostTasks, most.value_or(kMostTasks)));
   ArrayJob job;
   job.folder = std::filesystem::absolute(folder.path()) / "slurm";
   job.tasks = chunks_of(folder, size);
   if (job.tasks.empty()) return {};
+  require_array_size(job, most, "--chunk",
+                     "give at least --chunk " + std::to_string(size_for(most.value_or(1))));
   job.body = program_word() + " sweep run " +
              shell_word(std::filesystem::absolute(folder.path()).string()) +
              " \"$task\" --progress none";
-  job.megabytes = memory_of(folder);
+  job.megabytes = std::ceil(1e-6 * run_memory(folder));
   job.limits = limits;
   const std::string script = batch_script(job);
   make_folder(job.folder, "slurm");

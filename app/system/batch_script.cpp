@@ -5,9 +5,13 @@
 
 #include <cerrno>
 #include <cstring>
+#include <sstream>
+#include <string_view>
 
 #include "engine/error.h"
+#include "engine/system/child_process.h"
 #include "engine/system/platform.h"
+#include "engine/whole_number.h"
 
 namespace clatter {
 
@@ -78,6 +82,30 @@ fi
                         shell_word(folder.string()), job.body);
   if (!job.after.empty()) script += "((code == 0)) || exit $code\n" + job.after;
   return script + "exit $code\n";
+}
+
+// The limit is one more than the largest number of a task. ChildProcess keeps standard error only.
+std::optional<std::size_t> most_array_tasks() {
+  constexpr std::string_view kName = "MaxArraySize";
+  ChildProcess program({"/bin/sh", "-c", "exec scontrol show config >&2 2>/dev/null"});
+  program.wait();
+  std::istringstream lines(program.new_words());
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with(kName)) continue;
+    const std::size_t value = line.find_last_of(" =") + 1;
+    const auto size = whole_number<std::size_t>(std::string_view(line).substr(value));
+    if (size && *size > 1) return *size - 1;
+  }
+  return std::nullopt;
+}
+
+void require_array_size(const ArrayJob& job, std::optional<std::size_t> most, const char* flag,
+                        const std::string& advice) {
+  if (!most || job.tasks.size() <= *most) return;
+  throw UserError({flag, 0, 0},
+                  fmt::format("the array job would have {} tasks, and this cluster allows {}",
+                              job.tasks.size(), *most),
+                  advice);
 }
 
 void submit_batch(const std::filesystem::path& script) {

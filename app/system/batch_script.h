@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,15 @@ std::string program_word();
 
 /// The text of the batch script. Throws UserError if Slurm cannot read the name of the folder.
 std::string batch_script(const ArrayJob& job);
+
+/// The most tasks of an array job on this cluster, from `scontrol show config`; absent if Slurm
+/// does not answer.
+std::optional<std::size_t> most_array_tasks();
+
+/// Throws UserError with the flag and the advice if an array job has more tasks than `most`, the
+/// result of most_array_tasks().
+void require_array_size(const ArrayJob& job, std::optional<std::size_t> most, const char* flag,
+                        const std::string& advice);
 
 /// Replaces this process by sbatch for this script. Throws RunError if there is no sbatch.
 [[noreturn]] void submit_batch(const std::filesystem::path& script);

@@ -51,6 +51,7 @@ void make_folder(const std::filesystem::path& folder, const char* flag) {
     throw RunError("cannot make the folder " + folder.string() + ": " + error.message() +
                    "; choose another folder");
   if (access(folder.c_str(), W_OK) != 0) throw_unwritable(folder);
+  remove_leftovers(folder);
 }
 
 // The same text for all paths to one place.

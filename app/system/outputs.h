@@ -16,8 +16,9 @@ void require_folder_of(const std::filesystem::path& path, const char* flag);
 /// run. Throws UserError for a folder, and if the parent folder does not exist.
 void require_writable_file(const std::filesystem::path& path, const char* flag);
 
-/// Makes a folder unless it exists. Throws UserError if its parent folder does not exist, and
-/// RunError if the folder is not writable. The errors name `flag`.
+/// Makes a folder unless it exists, and removes leftovers of killed runs from it. Throws UserError
+/// if its parent folder does not exist, and RunError if the folder is not writable. The errors name
+/// `flag`.
 void make_folder(const std::filesystem::path& folder, const char* flag);
 
 /// A file or folder that a command writes, with its flag.

@@ -3,14 +3,7 @@
 #include <sys/resource.h>
 #include <time.h>
 
-#include <algorithm>
-#include <thread>
-
 namespace clatter {
-
-int processors() {
-  return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-}
 
 // getrusage() divides the time between program and system by ticks. A run shorter than one tick can
 // then have zero CPU time.

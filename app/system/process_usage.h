@@ -4,9 +4,6 @@
 
 namespace clatter {
 
-/// Number of processors that the process may use.
-int processors();
-
 /// CPU time of this process up to now, in seconds.
 double cpu_seconds();
 

@@ -1,16 +1,22 @@
 #include "app/view/script_log.h"
 
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "engine/error.h"
 
 namespace clatter {
 
-ScriptLog::ScriptLog(const std::string& file) {
+ScriptLog::ScriptLog(const std::string& file) : name_(file) {
   if (file.empty()) return;
   file_.reset(std::fopen(file.c_str(), "w"));
-  if (!file_) throw RunError("cannot write " + file);
+  if (!file_) fail();
+}
+
+void ScriptLog::fail() const {
+  throw RunError("cannot write " + name_ + ": " + std::strerror(errno));
 }
 
 void ScriptLog::event(const char* name, nlohmann::json members) {
@@ -18,8 +24,8 @@ void ScriptLog::event(const char* name, nlohmann::json members) {
   const std::chrono::duration<double> since = std::chrono::steady_clock::now() - began_;
   members["event"] = name;
   members["at"] = since.count();
-  std::fprintf(file_.get(), "%s\n", members.dump().c_str());
-  std::fflush(file_.get());
+  const std::string line = members.dump() + '\n';
+  if (std::fputs(line.c_str(), file_.get()) < 0 || std::fflush(file_.get()) != 0) fail();
 }
 
 void ScriptLog::widget(const std::string& name, float x, float y, float width, float height) {

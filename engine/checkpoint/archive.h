@@ -141,6 +141,32 @@ class ArchiveWriter : public Archive<ArchiveWriter> {
   std::string bytes_;
 };
 
+/// Counts the bytes of values without reading them.
+class ArchiveMeter : public Archive<ArchiveMeter> {
+ public:
+  /// Number of bytes of all values so far.
+  std::size_t bytes() const { return bytes_; }
+  /// Does nothing: values may be uninitialised.
+  void require(bool) const {}
+
+ private:
+  friend Archive<ArchiveMeter>;
+
+  template <class T>
+  void number(const T&) {
+    bytes_ += sizeof(T);
+  }
+  template <class Container>
+  void length(const Container&) {
+    bytes_ += sizeof(std::uint64_t);
+  }
+  void bytes(const char*, std::size_t count) { bytes_ += count; }
+  template <class Variant>
+  void choose(const Variant&, std::size_t) {}
+
+  std::size_t bytes_ = 0;
+};
+
 /// Reads values from bytes. Throws UserError if the bytes do not fit the types of this program.
 class ArchiveReader : public Archive<ArchiveReader> {
  public:
@@ -166,13 +192,18 @@ class ArchiveReader : public Archive<ArchiveReader> {
     if constexpr (std::endian::native == std::endian::big) std::ranges::reverse(raw);
     std::memcpy(&value, raw, sizeof value);
   }
-  // Every element takes at least one byte, so a damaged length cannot cause a huge allocation. A
-  // container that already has elements has its size from the scene and keeps it.
+  // The elements must fit into the rest of the bytes, so that a damaged length causes no huge
+  // allocation: a default element has the fewest bytes. A container that already has elements has
+  // its size from the scene and keeps it.
   template <class Container>
   void length(Container& container) {
     std::uint64_t size = 0;
     number(size);
-    if (size > bytes_.size() || (!container.empty() && size != container.size())) refuse();
+    typename Container::value_type element{};
+    ArchiveMeter least;
+    least(element);
+    if (size > bytes_.size() / least.bytes()) refuse();
+    if (!container.empty() && size != container.size()) refuse();
     container.resize(size);
   }
   // Selects the variant's alternative of this index.

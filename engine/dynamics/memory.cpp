@@ -1,5 +1,7 @@
 #include "engine/dynamics/memory.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -12,8 +14,7 @@
 #include "engine/error.h"
 #include "engine/physics/spin.h"
 #include "engine/physics/state.h"
-#include "engine/scene/text.h"
-#include "engine/system/platform.h"
+#include "engine/system/allocation.h"
 
 namespace clatter {
 
@@ -45,15 +46,15 @@ static int most_particles(const Scene& scene) {
 }
 
 void require_memory(const Scene& scene) {
-  const double there = machine_memory();
+  const double there = available_memory();
   const double needed = gas_memory(scene).total();
   const std::int64_t count = final_count(scene);
   if (needed <= there && count <= most_particles(scene)) return;
   const double fitting = std::floor(static_cast<double>(count) * (there / needed));
-  const auto gigabytes = [](double bytes) { return number_text(std::round(1e-9 * bytes)); };
+  const auto gigabytes = [](double bytes) { return fmt::format("{:.3g} GB", 1e-9 * bytes); };
   const std::string reason = needed <= there ? " particles exceed the limit of the program"
                                              : " particles take about " + gigabytes(needed) +
-                                                   " GB, and this machine has " + gigabytes(there);
+                                                   ", and this process may use " + gigabytes(there);
   throw UserError({"particles.count", 0, 0}, std::to_string(count) + reason,
                   "choose at most " + std::to_string(static_cast<int>(
                                           std::min<double>(most_particles(scene), fitting))));

@@ -18,8 +18,7 @@ struct GasMemory {
 /// Estimated memory of the scene's simulation, after all its puffs.
 GasMemory gas_memory(const Scene& scene);
 
-/// Throws UserError if gas_memory() exceeds the machine's memory, or if there are too many
-/// particles.
+/// Throws UserError if gas_memory() exceeds available_memory(), or if there are too many particles.
 void require_memory(const Scene& scene);
 
 }  // namespace clatter

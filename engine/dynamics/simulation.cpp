@@ -416,6 +416,12 @@ void Simulation<D>::every(double start, double interval, std::function<void(doub
 }
 
 template <int D>
+bool Simulation<D>::is_overdue(double start, double interval, std::uint64_t done) const {
+  constexpr double kLate = 1e-6;  // of the time
+  return !(RegularTimes(start, interval).of(done) >= time() * (1.0 - kLate));
+}
+
+template <int D>
 typename Simulation<D>::Timer* Simulation<D>::due_timer(double stop) {
   Timer* due = nullptr;
   for (Timer& timer : timers_) {

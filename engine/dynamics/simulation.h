@@ -70,6 +70,9 @@ class Simulation {
   /// A continued run skips the first `done` times.
   void every(double start, double interval, std::function<void(double)> action,
              std::uint64_t done = 0);
+  /// Whether the next of these times should have been long ago. A run would catch up with all that
+  /// are missing.
+  bool is_overdue(double start, double interval, std::uint64_t done) const;
   /// Throws PhysicalStop if a nudge would make a particle too fast.
   void check(const Nudge& nudge) const { loop_.velocities_after(nudge); }
   /// Changes velocities now. All events up to now must have been processed, as after run_until().

@@ -87,7 +87,7 @@ Measurement<D>::Measurement(Simulation<D>& simulation, const Measure& measure, d
   saved(continues);
   if (continues && averages == Averages::GoOn) {
     visit_averages(saved);
-    if (started_) observables_.restore(saved);
+    if (started_) observables_.restore(saved, averages_start_);
     saved.finish();
     saved.require(window_ > 0.0);
   } else {
@@ -104,16 +104,20 @@ void Measurement<D>::plan_averages(double end) {
   window_ = span / windows_in(span, measure_.series_interval);
 }
 
-// Whether a sample or the end of a window should have been long ago. A run would catch up with all
-// that are missing.
+// Whether a sample or the end of a window should have been long ago.
 template <int D>
 bool Measurement<D>::is_overdue() const {
-  constexpr double kLate = 1e-6;  // of the time
-  const double windows = started_ ? static_cast<double>(windows_.size() + 1) : 0.0;
-  const double samples = static_cast<double>(series_.times.size());
-  const double next = std::min(averages_start_ + windows * window_,
-                               series_start_ + samples * measure_.series_interval);
-  return !(next >= simulation_.time() * (1.0 - kLate));
+  return simulation_.is_overdue(averages_start_, window_, started_ ? windows_.size() + 1 : 0) ||
+         simulation_.is_overdue(series_start_, measure_.series_interval, series_.times.size()) ||
+         (samples_cells() &&
+          simulation_.is_overdue(averages_start_ + measure_.interval, measure_.interval, samples_));
+}
+
+// Whether averages of fields come from samples.
+template <int D>
+bool Measurement<D>::samples_cells() const {
+  return measure_.estimator == Estimator::Snapshot && !measure_.fields.empty();
+}
 }
 
 template <int D>
@@ -158,7 +162,7 @@ void Measurement<D>::observe() {
       series_.times.size());
   // Timers of samples come before timers of windows, so that a sample at a window's end belongs to
   // it.
-  if (measure_.estimator == Estimator::Snapshot && !measure_.fields.empty()) {
+  if (samples_cells()) {
     simulation_.every(
         averages_start_ + measure_.interval, measure_.interval,
         [this](double) {

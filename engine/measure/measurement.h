@@ -116,6 +116,7 @@ class Measurement {
  private:
   void plan_averages(double end);
   bool is_overdue() const;
+  bool samples_cells() const;
   void observe();
   void sample(double time);
   template <class Archive>

@@ -135,10 +135,12 @@ void Observables<D>::save(ArchiveWriter& io) {
 }
 
 template <int D>
-void Observables<D>::restore(ArchiveReader& io) {
+void Observables<D>::restore(ArchiveReader& io, double begin) {
   started_ = true;
   for (Part& part : parts_) {
     io(part.fine, part.coarse, part.samples);
+    io.require(!part.interval ||
+               !simulation_.is_overdue(begin + *part.interval, *part.interval, part.samples));
     for (const ObservableSums& sums : part.fine.parts()) {
       io.require(sums.values.size() == part.observable->mean_size());
     }

@@ -32,8 +32,9 @@ class Observables {
 
   /// Writes the members that a checkpoint keeps.
   void save(ArchiveWriter& io);
-  /// Reads them and continues. The simulation must be at the same time.
-  void restore(ArchiveReader& io);
+  /// Reads them and continues. The simulation must be at the same time. `begin` is that of
+  /// add_timers().
+  void restore(ArchiveReader& io, double begin);
 
  private:
   struct Part {

@@ -35,6 +35,10 @@ class FlightRecorder : public Observer<D> {
   template <class Archive>
   void visit(Archive& io) {
     io(since_, ended_);
+    for (const Ended& flight : ended_) {
+      io.require(flight.particle < simulation_.particles().size() &&
+                 flight.end <= simulation_.base_time());
+    }
   }
 
  private:

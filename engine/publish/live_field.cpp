@@ -87,6 +87,8 @@ LiveField<D>::LiveField(Simulation<D>& simulation, const View& view, ArchiveRead
       closure_(closure_for(simulation, view)) {
   visit(saved);
   saved.finish();
+  saved.require(!simulation.is_overdue(start_, view.window / kWindowParts, closed_) &&
+                !(samples(view) && simulation.is_overdue(sampled_from_, view.interval, samples_)));
   watch(simulation, view);
 }
 
@@ -106,12 +108,18 @@ void LiveField<D>::visit(Archive& io) {
   io(start, closed, sampled_from, samples);
 }
 
+// Whether averages come from samples.
+template <int D>
+bool LiveField<D>::samples(const View& view) const {
+  return averages_ && view.estimator == Estimator::Snapshot;
+}
+
 template <int D>
 void LiveField<D>::watch(Simulation<D>& simulation, const View& view) {
   if (averages_) simulation.add_observer(averages_->observer);
   if (closure_) simulation.add_observer(closure_->observer);
   // Timers of samples come before timers of parts, so that a sample at a part's end belongs to it.
-  if (averages_ && view.estimator == Estimator::Snapshot) {
+  if (samples(view)) {
     const auto sample = [this](double) {
       ++samples_;
       averages_->observer.sample();

@@ -53,6 +53,7 @@ class LiveField {
   void visit(Archive& io);
   static std::optional<Averages> averages_for(const Simulation<D>& simulation, const View& view);
   static std::optional<Closure> closure_for(const Simulation<D>& simulation, const View& view);
+  bool samples(const View& view) const;
   void watch(Simulation<D>& simulation, const View& view);
   void look();
 

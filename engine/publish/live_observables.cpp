@@ -27,7 +27,7 @@ LiveObservables<D>::LiveObservables(Simulation<D>& simulation, LiveObservables& 
   ArchiveWriter saved;
   before.observables_.save(saved);
   ArchiveReader reader(saved.written(), "observables");
-  observables_.restore(reader);
+  observables_.restore(reader, start_);
   add_timers(simulation);
 }
 

@@ -32,6 +32,7 @@ LiveProfile<D>::LiveProfile(Simulation<D>& simulation, double window, Axis axis,
       observer_(simulation, columns_in(simulation.model(), axis),
                 moment_layout<D>(profiled_fields(axis), simulation.model().spins)) {
   saved(*this);
+  saved.require(!simulation.is_overdue(start_, window, closed_));
   watch(simulation, window);
 }
 

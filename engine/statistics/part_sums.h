@@ -46,6 +46,7 @@ class PartSums {
   void visit(Archive& io) {
     auto& [parts, windows_per_part, windows] = *this;
     io(parts, windows_per_part, windows);
+    io.require(windows_per_part > 0 && parts.size() <= kMaxParts);
   }
 
  private:

@@ -58,9 +58,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, Interrupts
   if (interrupts == Interrupts::Shielded) {
     sigset_t blocked;
     sigemptyset(&blocked);
-    sigaddset(&blocked, SIGINT);
-    sigaddset(&blocked, SIGTERM);
-    sigaddset(&blocked, SIGHUP);
+    for (const int signal : kInterrupts) sigaddset(&blocked, signal);
     posix_spawnattr_setsigmask(&setup.attributes, &blocked);
     posix_spawnattr_setflags(&setup.attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
   }
@@ -145,7 +143,7 @@ std::optional<int> ChildProcess::poll() {
 }
 
 void ChildProcess::interrupt() const {
-  if (pid_ >= 0) ::kill(pid_, SIGINT);
+  if (pid_ >= 0) ::kill(pid_, SIGTERM);
 }
 
 void ChildProcess::kill() {

@@ -2,7 +2,9 @@
 
 #include <sys/types.h>
 
+#include <array>
 #include <chrono>
+#include <csignal>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,10 +15,13 @@
 
 namespace clatter {
 
+/// The signals that request the end of a run, at the terminal or by a batch system.
+inline constexpr std::array kInterrupts = {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1, SIGUSR2};
+
 /// Whether an interrupt of this program, at the terminal or by a batch system, reaches its
 /// children.
 enum class Interrupts {
-  Shielded,  ///< a child has its own process group and blocks SIGINT, SIGTERM and SIGHUP
+  Shielded,  ///< a child has its own process group and blocks kInterrupts
   Shared     ///< a child receives the same signals
 };
 
@@ -45,7 +50,8 @@ class ChildProcess {
   bool wait();
   /// Its exit code after its end, 128 after a signal; absent while it runs.
   std::optional<int> poll();
-  /// Sends it SIGINT if it still runs.
+  /// Sends it SIGTERM if it still runs. A job in the background of a script ignores SIGINT, and so
+  /// do its children.
   void interrupt() const;
   /// Ends it at once. A current write() on another thread then fails.
   void kill();

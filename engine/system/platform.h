@@ -15,8 +15,13 @@ namespace clatter {
 /// Asks for huge pages in newly allocated memory. Plain: large arrays stay on small pages.
 void prefer_huge_pages(void* memory, std::size_t bytes);
 
-/// Memory of the machine in bytes. Plain: infinity, so that no scene is rejected as too large.
+/// Memory that the system gives to this process, in bytes: that of the machine, or the limit of its
+/// control groups. Plain: infinity, so that no scene is rejected as too large.
 double machine_memory();
+
+/// Number of processors that the system gives to this process: those of its affinity, or the quota
+/// of its control groups, rounded up. Plain: all processors of the machine.
+int machine_processors();
 
 /// Bytes currently allocated by the process. Plain: 0.
 double heap_bytes();
@@ -43,8 +48,8 @@ std::optional<Pipe> make_pipe();
 /// Kills this child process when its parent ends. Plain: it runs to its own end.
 void end_with_parent();
 
-/// A name with which a child process can open this file while this process lives. Plain: `path`,
-/// which may meanwhile be another file.
+/// A name with which a child process can open this file while this process lives. Plain, and
+/// without /proc: `path`, which may meanwhile be another file.
 std::string name_while_open(const FileDescriptor& file, const std::string& path);
 
 /// A name that starts this program again, independent of its start. Plain: `name`, to be found on

@@ -2,9 +2,11 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <system_error>
+#include <thread>
 
 #include "engine/system/platform.h"
 
@@ -14,6 +16,10 @@ void prefer_huge_pages(void*, std::size_t) {}
 
 double machine_memory() {
   return std::numeric_limits<double>::infinity();
+}
+
+int machine_processors() {
+  return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
 double heap_bytes() {

@@ -19,6 +19,10 @@ double machine_memory() {
   return 1e9;
 }
 
+int machine_processors() {
+  return 1;
+}
+
 double heap_bytes() {
   return 0.0;
 }

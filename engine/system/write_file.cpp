@@ -2,8 +2,11 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -36,9 +39,13 @@ bool sync_file(const std::filesystem::path& path) {
   return file && file.sync();
 }
 
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+  return path.has_parent_path() ? path.parent_path() : ".";
+}
+
 // A folder may be writable but not readable. It then cannot be synced, and this counts as success.
 bool sync_folder_of(const std::filesystem::path& path) {
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  const std::filesystem::path folder = folder_of(path);
   FileDescriptor file(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   return file ? file.sync() : errno == EACCES;
 }
@@ -78,16 +85,51 @@ void require_replaceable(const std::filesystem::path& path, const std::filesyste
   }
 }
 
+constexpr std::string_view kHidden = ".clatter-";  // before the number of a hidden file
+
+// Whether a name is that of a hidden file, or of the file that collects its records.
+bool is_hidden(std::string_view name) {
+  const std::size_t mark = name.rfind(kHidden);
+  if (!name.starts_with('.') || mark == 0 || mark == name.npos) return false;
+  const std::string_view number = name.substr(mark + kHidden.size());
+  const std::size_t end = std::min(number.find_first_not_of("0123456789-"), number.size());
+  return end > 0 && (end == number.size() || number.substr(end) == ".records");
+}
+
+// True if the file system has locks and no other process has one on this file.
+bool lock(const FileDescriptor& file) {
+  return flock(file.get(), LOCK_EX | LOCK_NB) == 0;
+}
+
 }  // namespace
+
+bool is_at(const FileDescriptor& file, const std::filesystem::path& path) {
+  struct stat opened, named;
+  return fstat(file.get(), &opened) == 0 && stat(path.c_str(), &named) == 0 &&
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
+void remove_leftovers(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::filesystem::path& path = entry.path();
+    if (!is_hidden(path.filename().native()) || !entry.is_regular_file(ignored)) continue;
+    const FileDescriptor file(open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC));
+    if (file && lock(file) && is_at(file, path)) unlink(path.c_str());
+  }
+}
 
 NewFile new_file_beside(const std::filesystem::path& target) {
   constexpr int kMostBytes = 200;  // of the name: a longer one may leave no room for the rest
   for (int number = 0;; ++number) {
     const std::filesystem::path path =
-        target.parent_path() /
-        fmt::format(".{:.{}}.{}-{}", target.filename().string(), kMostBytes, getpid(), number);
+        target.parent_path() / fmt::format(".{:.{}}{}{}-{}", target.filename().string(), kMostBytes,
+                                           kHidden, getpid(), number);
     FileDescriptor file(open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-    if (file || errno != EEXIST) return {path, std::move(file)};
+    if (!file && errno == EEXIST) continue;
+    // Another run may have taken the file for a leftover before it was locked.
+    const bool lost = file && !lock(file) && errno == EWOULDBLOCK;
+    if (!file || (!lost && is_at(file, path))) return {path, std::move(file)};
   }
 }
 
@@ -112,6 +154,7 @@ void require_writable(const std::filesystem::path& path) {
   }
   const std::filesystem::path target = target_of(path);
   require_replaceable(path, target);
+  remove_leftovers(folder_of(target));
   const NewFile part = new_file_beside(target);
   if (!part.file) throw_unwritable(path, errno);
   std::remove(part.path.c_str());
@@ -132,6 +175,7 @@ void write_file(const std::filesystem::path& path, std::string_view bytes,
   require_replaceable(path, target);
   NewFile part = new_file_beside(target);
   if (!part.file) throw_unwritable(path, errno);
+  const FileDescriptor locked(dup(part.file.get()));  // until the file has its name
   const bool written =
       part.file.write_all(bytes_of(bytes)) && part.file.sync() && part.file.close();
   // Another run may have moved the previous file.

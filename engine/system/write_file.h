@@ -14,22 +14,30 @@ bool is_special(const std::filesystem::path& path);
 /// The path behind a chain of links. A link stays where a chain has no end.
 std::filesystem::path target_of(std::filesystem::path path);
 
+/// True if `path` still names the open file or folder.
+bool is_at(const FileDescriptor& file, const std::filesystem::path& path);
+
 /// A file that did not exist before.
 struct NewFile {
   std::filesystem::path path;
-  FileDescriptor file;  ///< open for writing
+  FileDescriptor file;  ///< open for writing, and locked by flock()
 };
 
-/// Creates the empty file .FILE.NUMBER in the folder of `target`. No other file has this name.
-/// Without a file, `errno` has the reason.
+/// Creates the empty hidden file .FILE.clatter-NUMBER in the folder of `target`. No other file has
+/// this name. Without a file, `errno` has the reason. The lock shows other runs that the file is in
+/// use. Who writes it through another descriptor, and locks that one, closes this one before.
 NewFile new_file_beside(const std::filesystem::path& target);
 
+/// Removes the hidden files of new_file_beside() that killed runs have left in a folder: those
+/// without a lock. A file system without locks keeps them.
+void remove_leftovers(const std::filesystem::path& folder);
+
 /// Throws the error that write_file() would throw for this path, except for a full disk. Creates
-/// and removes a temporary file.
+/// and removes a temporary file. Removes leftovers from the folder.
 void require_writable(const std::filesystem::path& path);
 
-/// Writes a file atomically, even if the machine stops: writes a temporary file .FILE.NUMBER in the
-/// same folder, syncs it and renames it. An existing file is renamed to `previous`, if given. Links
+/// Writes a file atomically, even if the machine stops: writes a hidden file in the same folder,
+/// syncs it and renames it. An existing file is renamed to `previous`, if given. Links
 /// are followed; a special file is written into. Throws RunError, also if the file is
 /// write-protected, and then removes the temporary file.
 void write_file(const std::filesystem::path& path, std::string_view bytes,

@@ -9,6 +9,11 @@
 
 namespace clatter {
 
+static bool is_wayland() {
+  const char* wayland = std::getenv("WAYLAND_DISPLAY");
+  return wayland && *wayland;
+}
+
 static RunError failure(const char* what) {
   const char* reason = nullptr;
   glfwGetError(&reason);
@@ -19,14 +24,27 @@ static RunError failure(const char* what) {
 // there is none.
 static void prefer_named_display() {
 #ifdef GLFW_PLATFORM_X11
-  const char* wayland = std::getenv("WAYLAND_DISPLAY");
-  if (!wayland || !*wayland) glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+  if (!is_wayland()) glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
 #endif
+}
+
+// Before 3.4 a library of GLFW is for X11 or for Wayland. Later it opens the libraries of both at
+// run time.
+static RunError no_display() {
+  const RunError error = failure("no display");
+  if (!is_wayland()) return error;
+  int major = 0, minor = 0, revision = 0;
+  glfwGetVersion(&major, &minor, &revision);
+  const bool for_both = major > 3 || minor >= 4;
+  return RunError(std::string(error.what()) + "; this is a Wayland session: install Xwayland, or " +
+                  (for_both ? "the libraries libwayland-client0, libwayland-cursor0, "
+                              "libwayland-egl1 and libxkbcommon0"
+                            : "GLFW for Wayland (libglfw3-wayland) in place of libglfw3"));
 }
 
 GlfwContext::GlfwContext(const std::string& title, Size size) {
   prefer_named_display();
-  if (!glfwInit()) throw failure("no display");
+  if (!glfwInit()) throw no_display();
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);

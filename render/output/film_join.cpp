@@ -154,6 +154,7 @@ std::string reason_of(const ChildProcess& encoder) {
 
 long pictures_in(const std::filesystem::path& film, const std::string& encoder) {
   try {
+    if (const std::optional<long> pictures = pictures_in_gif(film)) return *pictures;
     return listing_of(film, encoder).pictures;
   } catch (const RunError&) {
     return -1;
@@ -164,32 +165,45 @@ std::filesystem::path PartsFolder::safe_name(const std::string& file) const {
   return std::filesystem::path(name_while_open(opened, path.string())) / file;
 }
 
-void join_films(const PartsFolder& folder, const std::vector<FilmPart>& parts, double fps,
-                const std::filesystem::path& texts, const std::string& sound,
-                const MovieFormat& format, const std::filesystem::path& list, const NewFile& joined,
-                const std::string& encoder) {
+// Joins films by the encoder, without encoding.
+static void copy_films(const PartsFolder& folder, const std::vector<FilmPart>& parts, double fps,
+                       const std::filesystem::path& texts, const std::string& sound,
+                       const MovieFormat& format, const std::filesystem::path& list,
+                       const NewFile& joined, const std::string& encoder) {
   std::string entries = "ffconcat version 1.0\n";
-  long count = 0;
   for (const FilmPart& part : parts) {
     entries += fmt::format("file {}\nduration {:.9f}\n",
                            list_entry(folder.safe_name(part.path.filename().string())),
                            static_cast<double>(part.count) / fps);
-    count += part.count;
   }
   write_file(list, entries);
-
   ChildProcess joiner(joining_command(encoder, format, folder.safe_name(texts.filename().string()),
                                       sound.empty() ? "" : folder.safe_name(sound), list,
                                       name_while_open(joined.file, joined.path.string())));
-  if (!joiner.wait()) {
+  if (!joiner.wait()) throw RunError(reason_of(joiner));
+}
+
+// The encoder would copy the heads of GIFs between their pictures.
+void join_films(const PartsFolder& folder, const std::vector<FilmPart>& parts, double fps,
+                const std::filesystem::path& texts, const std::string& sound,
+                const MovieFormat& format, const std::filesystem::path& list, NewFile& joined,
+                const std::string& encoder) {
+  long count = 0;
+  for (const FilmPart& part : parts) count += part.count;
+  try {
+    if (format.muxer == "gif") {
+      join_gifs(parts, fps, joined.file);
+    } else {
+      copy_films(folder, parts, fps, texts, sound, format, list, joined, encoder);
+    }
+    const long found = pictures_in(joined.path, encoder);
+    if (found == count) return;
+    throw RunError(fmt::format("{} has {} of {} pictures; is the disk full?", joined.path.string(),
+                               found, count));
+  } catch (const RunError&) {
     unlink(joined.path.c_str());
-    throw RunError(reason_of(joiner));
+    throw;
   }
-  const long found = pictures_in(joined.path, encoder);
-  if (found == count) return;
-  unlink(joined.path.c_str());
-  throw RunError(fmt::format("{} has {} of {} pictures; is the disk full?", joined.path.string(),
-                             found, count));
 }
 
 void require_no_device(const std::filesystem::path& path) {
@@ -216,7 +230,8 @@ void join_parts(const std::filesystem::path& folder, long count, double fps,
   try {
     const std::vector<FilmPart> parts = complete_parts(folder, format.extension, count, fps);
     // Two tasks that end together write the same film to files of their own.
-    const TemporaryFile list(target), joined(target);
+    const TemporaryFile list(target);
+    TemporaryFile joined(target);
     join_films({folder, opened}, parts, fps, parts.back().path, "", format, list.path, joined);
     rename_synced(joined.path, target);
   } catch (const RunError& error) {

@@ -8,18 +8,13 @@
 #include "engine/system/child_process.h"
 #include "engine/system/file_descriptor.h"
 #include "engine/system/write_file.h"
+#include "render/output/gif.h"
 #include "render/output/movie_format.h"
 
 namespace clatter {
 
 /// The words of the error of an encoder that cannot start, with a fix if the encoder is missing.
 std::string with_install_advice(const RunError& error);
-
-/// A film file that is a part of a film.
-struct FilmPart {
-  std::filesystem::path path;
-  long count = 0;  ///< number of pictures
-};
 
 /// The last words of an encoder that failed, or a sentence without them.
 std::string reason_of(const ChildProcess& encoder);
@@ -43,7 +38,7 @@ struct PartsFolder {
 /// Throws RunError with the reason, also if the film lacks pictures, and then removes `joined`.
 void join_films(const PartsFolder& folder, const std::vector<FilmPart>& parts, double fps,
                 const std::filesystem::path& texts, const std::string& sound,
-                const MovieFormat& format, const std::filesystem::path& list, const NewFile& joined,
+                const MovieFormat& format, const std::filesystem::path& list, NewFile& joined,
                 const std::string& encoder = "ffmpeg");
 
 /// Throws UserError if `path` is a device or a pipe, which a film would replace.

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -38,13 +37,6 @@ void require_no_pieces(const std::filesystem::path& folder) {
 FileDescriptor open_new(const std::filesystem::path& path) {
   unlink(path.c_str());
   return FileDescriptor(open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
-}
-
-// True if `path` still names the open folder.
-bool is_at(const FileDescriptor& folder, const std::filesystem::path& path) {
-  struct stat opened, named;
-  return fstat(folder.get(), &opened) == 0 && stat(path.c_str(), &named) == 0 &&
-         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
 // Locks the open folder; false if another program holds the lock. The child of a killed film holds
@@ -250,7 +242,7 @@ void Movie::join() {
   require_unchanged(pieces);
   flush();
   const std::filesystem::path path = folder_ / ("joined" + format_->extension);
-  const NewFile joined{path, open_new(path)};
+  NewFile joined{path, open_new(path)};
   if (!joined.file) fail(std::strerror(errno));
   try {
     join_films({folder_, held_}, pieces, options_.fps, folder_ / kTexts, sound_ ? kSound : "",

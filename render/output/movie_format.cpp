@@ -19,13 +19,14 @@ Arguments with(Arguments all, const Arguments& more) {
   return all;
 }
 
-// Converts to BT.709 explicitly: by default ffmpeg converts to BT.601, and players assume BT.709.
-// The encoder of ProRes takes the names of the colours from the pictures.
-Arguments video(const std::string& sides, const std::string& pixels, const Arguments& codec) {
+// Converts explicitly: by default ffmpeg converts to BT.601, and players assume BT.709. The encoder
+// of ProRes takes the names of the colours from the pictures.
+Arguments video(const std::string& sides, const std::string& pixels, const Arguments& codec,
+                const std::string& matrix = "bt709") {
   return with({"-vf",
-               sides + "scale=out_color_matrix=bt709:out_range=tv,format=" + pixels +
-                   ",setparams=colorspace=bt709:color_trc=bt709:color_primaries=bt709",
-               "-colorspace", "bt709", "-color_trc", "bt709", "-color_primaries", "bt709",
+               sides + "scale=out_color_matrix=" + matrix + ":out_range=tv,format=" + pixels +
+                   ",setparams=colorspace=" + matrix + ":color_trc=bt709:color_primaries=bt709",
+               "-colorspace", matrix, "-color_trc", "bt709", "-color_primaries", "bt709",
                "-color_range", "tv"},
               codec);
 }
@@ -46,6 +47,9 @@ const Arguments kFfv1 = {"-c:v", "ffv1", "-level", "3", "-g", "1", "-slicecrc", 
 // and 0 of 1600 without this thread. mov: ProRes 4444, for editing. VP9: "realtime" is five
 // times as fast as "good", with a fifth more bytes at the same quality. FFV1: lossless, with
 // checksums. GIF: one palette per frame, because one for the whole film needs all frames in memory.
+// Whole frames, because ffmpeg finds changed pixels by their indices in different palettes.
+// A transparent WebM has the matrix of BT.601, because Firefox decodes VP9 with alpha by it
+// whatever the film says.
 const std::array<MovieFormat, 5>& formats() {
   static const std::array<MovieFormat, 5> all = {{
       {".mp4",
@@ -64,7 +68,7 @@ const std::array<MovieFormat, 5>& formats() {
       {".webm",
        "webm",
        video(kEvenSides, "yuv420p", kVp9),
-       video(kEvenClearSides, "yuva420p", with(kVp9, {"-auto-alt-ref", "0"})),
+       video(kEvenClearSides, "yuva420p", with(kVp9, {"-auto-alt-ref", "0"}), "smpte170m"),
        {"-c:a", "libopus", "-b:a", "160k", "-flags:a", "+bitexact"}},
       {".mkv",
        "matroska",
@@ -74,7 +78,8 @@ const std::array<MovieFormat, 5>& formats() {
       {".gif",
        "gif",
        {"-filter_complex",
-        "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=none"},
+        "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=none",
+        "-gifflags", "-offsetting-transdiff"},
        {},
        {}},
   }};

@@ -50,6 +50,7 @@ void make_folder(const std::filesystem::path& folder, const SinkOptions& options
   std::filesystem::directory_iterator files;
   if (!error) files = std::filesystem::directory_iterator(folder, error);
   if (error) throw RunError("cannot write to " + folder.string() + ": " + error.message());
+  remove_leftovers(folder);
   if (options.overwrite || options.goes_on) return;
   for (const auto& entry : files) {
     const long number = frame_number(entry);
@@ -73,6 +74,7 @@ void PngFile::add(Image image, std::vector<PngText> notes) {
 PngSequence::PngSequence(std::filesystem::path folder, const SinkOptions& options)
     : folder_(std::move(folder)),
       texts_(options.texts),
+      begin_(options.begin),
       next_(options.next),
       queue_(options.threads, static_cast<std::size_t>(options.threads)) {
   require_earlier_frames(folder_, options);
@@ -103,6 +105,16 @@ void PngSequence::flush() {
     if (sound_) sound_->flush();
   } catch (const RunError& error) {
     fail(error);
+  }
+}
+
+void PngSequence::finish(Ending) {
+  flush();
+  for (long number = begin_; number < next_; ++number) {
+    const std::filesystem::path frame = folder_ / frame_name(number);
+    if (!std::filesystem::exists(frame)) {
+      fail(RunError("the frame " + frame.string() + " was removed during the run"));
+    }
   }
 }
 

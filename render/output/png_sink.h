@@ -40,13 +40,15 @@ class PngSequence final : public FrameSink {
   void add_sound(std::span<const StereoSample> samples) override { sound_->append(samples); }
   std::uint32_t sound_checksum() const override { return sound_ ? sound_->checksum() : 0; }
   void flush() override;
-  void finish(Ending) override { flush(); }
+  /// Throws RunError also if a picture has been removed.
+  void finish(Ending) override;
 
  private:
   [[noreturn]] void fail(const RunError& error) const;
 
   std::filesystem::path folder_;
   std::vector<PngText> texts_;
+  long begin_;                    ///< number of the first picture
   long next_;                     ///< number of the next picture
   std::optional<WavFile> sound_;  ///< DIR/sound.wav; absent: none
   WorkQueue queue_;               ///< last member: its threads must end first

@@ -13,6 +13,7 @@
 
 #include "engine/error.h"
 #include "engine/system/checksum.h"
+#include "engine/system/write_file.h"
 #include "render/output/frame_sink.h"
 
 namespace clatter {
@@ -100,6 +101,8 @@ void WavFile::append(std::span<const StereoSample> samples) {
 
 void WavFile::flush() {
   if (!write_at(file_, header_of(samples_), 0) || !file_.sync()) fail();
+  errno = ENOENT;
+  if (!is_at(file_, path_)) fail();
 }
 
 void WavFile::fail() const {

@@ -22,7 +22,7 @@ class WavFile {
   /// Appends samples. Throws RunError.
   void append(std::span<const StereoSample> samples);
   /// Writes the header for the present length and waits until the file is on the disk. Throws
-  /// RunError.
+  /// RunError, also if the file has been removed.
   void flush();
   /// CRC-32 of all samples.
   std::uint32_t checksum() const { return checksum_; }

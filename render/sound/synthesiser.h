@@ -69,7 +69,9 @@ class Synthesiser {
   void visit(Archive& io) {
     io(gain_, scale_, next_, envelope_, strikes_, resonators_);
     io.require(next_ >= 0);
-    for (const Strike& strike : strikes_) io.require(strike.sample >= next_);
+    for (const Strike& strike : strikes_) {
+      io.require(strike.sample >= next_ && strike.pitch >= 0 && strike.pitch <= kBelow + kAbove);
+    }
   }
 
   /// Frequency of the middle pitch, in Hz.

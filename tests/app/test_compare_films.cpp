@@ -110,7 +110,7 @@ TEST_CASE("Compare films: parts from checkpoints, and a resumed film, are the fi
   }
   CHECK(shell.run("diff -r whole parts && rm c*").code == 0);
 
-  const Outcome cut = cut_off(shell, kComparison + "--sound --out film.mkv", "INT");
+  const Outcome cut = cut_off(shell, kComparison + "--sound --out film.mkv", "TERM");
   CAPTURE(cut.err);
   CHECK(cut.code == 130);
   const Outcome resumed = shell.run(kComparison + "--out film.mkv --resume c");

@@ -209,7 +209,7 @@ TEST_CASE("Event log: an interrupted and resumed run has the same log") {
     shell.write("s.toml", scene(2));
     const std::string line = kEventRun + "--set measure.duration=40000 --events-share 0.1 ";
     REQUIRE(shell.run(line + "--events whole_" + file + " --out r.json").code == 0);
-    REQUIRE(cut_off(shell, line + "--events " + file + " --out r.json", "INT").code == 130);
+    REQUIRE(cut_off(shell, line + "--events " + file + " --out r.json", "TERM").code == 130);
     CHECK(shell.run("test -e e.h5").code != 0);
     // Events after the checkpoint are written again.
     shell.run(

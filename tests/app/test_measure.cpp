@@ -432,7 +432,7 @@ TEST_CASE("Measure: progress is written to stderr as asked") {
   const Shell shell;
   const Outcome outcome = shell.run(
       "clatter measure vibrated --until 1e6 --progress json 2>told & pid=$!\n"
-      "while [ ! -s told ] && kill -0 $pid; do sleep 0.05; done; kill -INT $pid; wait $pid");
+      "while [ ! -s told ] && kill -0 $pid; do sleep 0.05; done; kill -TERM $pid; wait $pid");
   CHECK(outcome.code == 130);
   const std::string told = shell.read("told");
   const json progress = json::parse(told.substr(0, told.find('\n')));

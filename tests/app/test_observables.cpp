@@ -209,7 +209,7 @@ TEST_CASE("Observables: a resumed run has the same results") {
   shell.write("s.toml", scene(2, kAllOfDisks));
   const std::string line = "clatter measure s.toml --quiet --set measure.duration=40000 ";
   REQUIRE(shell.run(line + "--out whole.json").code == 0);
-  REQUIRE(cut_off(shell, line + "--out part.json", "INT").code == 130);
+  REQUIRE(cut_off(shell, line + "--out part.json", "TERM").code == 130);
   REQUIRE(shell.run(line + "--resume c --out resumed.json").code == 0);
   json whole = json::parse(shell.read("whole.json"));
   json resumed = json::parse(shell.read("resumed.json"));

@@ -55,7 +55,7 @@ TEST_CASE("Replicas: they run on as many threads as asked for") {
       "clatter measure vibrated --until 5000 --quiet --replicas 9 --threads 7 --out all.json & "
       "pid=$!\n"
       "until [ \"$(ls /proc/$pid/task | wc -l)\" -eq 8 ] || ! kill -0 $pid; do sleep 0.02; done\n"
-      "kill -INT $pid; wait $pid");
+      "kill -TERM $pid; wait $pid");
   CHECK(outcome.code == 130);
 }
 

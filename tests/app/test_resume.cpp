@@ -32,7 +32,7 @@ TEST_CASE("Resume: a measurement that was interrupted or killed ends in the same
   REQUIRE(shell.run(kRun + "--seed 7 --out whole.json --vtk whole").code == 0);
   int code = 0;
   SUBCASE("interrupted") {
-    code = cut_off(shell, kRun + "--seed 7 --out part.json", "INT").code;
+    code = cut_off(shell, kRun + "--seed 7 --out part.json", "TERM").code;
   }
   SUBCASE("killed") {
     code = cut_off(shell, kRun + "--seed 7 --out part.json", "KILL").code;
@@ -71,7 +71,7 @@ TEST_CASE("Resume: a measurement of a given accuracy ends in the same result") {
 TEST_CASE("Resume: an interrupted run leaves a checkpoint beside its result and names it") {
   const Shell shell;
   const auto leaves = [&](const std::string& line, const std::string& file,
-                          const std::string& signal = "INT") {
+                          const std::string& signal = "TERM") {
     CAPTURE(line);
     const Outcome outcome = shell.run("timeout --preserve-status -s " + signal + " 1 " + line);
     CAPTURE(outcome.err);
@@ -444,7 +444,7 @@ TEST_CASE("Resume: a checkpoint that cannot be written costs no result") {
   const Shell shell;
   const Outcome outcome = shell.run(
       "clatter measure vibrated --until 1e6 --out r.json & pid=$!; sleep 1\n"
-      "mkdir r.checkpoint; kill -INT $pid; wait $pid");
+      "mkdir r.checkpoint; kill -TERM $pid; wait $pid");
   CHECK(outcome.code == 1);
   CHECK(says(outcome.err, "no checkpoint was written: cannot write r.checkpoint: Is a directory"));
   CHECK(json::accept(shell.read("r.json")));

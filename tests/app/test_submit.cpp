@@ -211,6 +211,32 @@ TEST_CASE("Submit: the batch script is valid, and runs the chunk of its task") {
   CHECK(shell.run("SLURM_ARRAY_TASK_ID=1 bash " + folder + "/slurm/job.sh").code == 2);
 }
 
+// The largest number of a task is below MaxArraySize.
+TEST_CASE("Submit: an array job that the cluster would refuse is refused before") {
+  const Shell shell;
+  shell.write("s.toml", kNineRuns);
+  REQUIRE(shell.run("clatter sweep s.toml --out d --prepare").code == 0);
+  REQUIRE(shell
+              .run("mkdir bin && touch bin/sbatch && chmod +x bin/sbatch && cp bin/sbatch "
+                   "bin/scontrol && printf '#!/bin/sh\\n"
+                   "echo \"ControlMachine          = node\"\\n"
+                   "echo \"MaxArraySize            = 5\"\\n' >bin/scontrol")
+              .code == 0);
+  const std::string line = "PATH=$PWD/bin:$PATH clatter ";
+  check_refused(shell, line + "sweep submit d --slurm --chunk 2",
+                {"--chunk: the array job would have 5 tasks, and this cluster allows 4",
+                 "give at least --chunk 3"});
+  for (const std::string chunk : {"", " --chunk 3"}) {
+    REQUIRE(shell.run(line + "sweep submit d --slurm" + chunk).code == 0);
+    CHECK(chunks_in(shell.read("d/slurm/job.sh")) == std::vector<std::string>{"1-3", "4-6", "7-9"});
+  }
+  const std::string film = line + "render vibrated --fps 30 --speed 1 --to 20 --out f.mp4 --slurm ";
+  check_refused(
+      shell, film + "6",
+      {"--slurm: the array job would have 6 tasks, and this cluster allows 4", "give at most 4"});
+  CHECK(shell.run(film + "4").code == 0);
+}
+
 TEST_CASE("Submit: wrong flags are refused") {
   const Shell shell;
   shell.write("s.toml", kNineRuns);

@@ -197,7 +197,7 @@ TEST_CASE("Sweep: a process without a result is named with the reason of its end
       "clatter sweep s.toml --out d --threads 1 --progress none & "
       "until pgrep -f \"sweep run $(pwd -P)/d \" > child; do sleep 0.05; done; sleep 2; "
       "kill -9 $(cat child); sleep 0.5; kill -TERM $(pgrep -f \"sweep run $(pwd -P)/d \"); sleep "
-      "1.5; kill -INT $!; wait");
+      "1.5; kill -TERM $!; wait");
   CHECK_MESSAGE(killed.err ==
                     "clatter: run 1 (particles.restitution=0.7 walls.right.temperature=0.5, seed "
                     "4) has ended without a result: Killed\n"
@@ -216,7 +216,7 @@ TEST_CASE("Sweep: a folder that is removed during the sweep is not a success") {
   const Outcome outcome = shell.run(
       "clatter sweep s.toml --out d --quiet --threads 1 & until ls d/results/1.json; do sleep "
       "0.01; "
-      "done; rm -rf d; kill -INT $!; wait $!");
+      "done; rm -rf d; kill -TERM $!; wait $!");
   CHECK(outcome.code == 2);
   CHECK(says(outcome.err, "d: this is not the folder of a sweep"));
 }

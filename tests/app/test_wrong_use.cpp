@@ -549,6 +549,12 @@ TEST_CASE("Wrong use: impossible pictures and films are refused") {
   CHECK(outcome.code == 1);
   CHECK(says(outcome.err, "glfw: no display"));
   CHECK(says(outcome.err, "; use egl or osmesa, which need no display\n"));
+  CHECK_FALSE(says(outcome.err, "Wayland session"));
+  const Outcome wayland =
+      shell.run("DISPLAY= XDG_RUNTIME_DIR=/none WAYLAND_DISPLAY=wayland-0 clatter view vibrated");
+  CHECK(wayland.code == 1);
+  CHECK(says(wayland.err, "glfw: no display"));
+  CHECK(says(wayland.err, "this is a Wayland session: install Xwayland, or "));
 }
 
 TEST_CASE("Wrong use: unknown commands are refused") {

@@ -55,7 +55,7 @@ TEST_CASE("Sizes: 2 * 10^9 particles" *
       "clatter measure equilibrium --quiet --set particles.count=2000000000 ";
   check_refused(
       shell, measure + "--set box.size=[100000,100000]",
-      {"2000000000 particles take about 480 GB, and this machine has ", "choose at most "});
+      {"2000000000 particles take about 480 GB, and this process may use ", "choose at most "});
   check_refused(shell, measure + "--set box.size=[1000,1000]",
                 {"have no place on a lattice", "at most"});
   MESSAGE("refused");

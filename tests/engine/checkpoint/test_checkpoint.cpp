@@ -300,6 +300,14 @@ TEST_CASE("Checkpoint: lengths beyond the end of the file are refused, not alloc
   CHECK_THROWS_AS(ArchiveReader(writer.written(), "a")(numbers), UserError);
   CHECK_THROWS_AS(ArchiveReader(writer.written(), "a")(rows), UserError);
   CHECK_THROWS_AS(ArchiveReader(writer.written(), "a")(text), UserError);
+  // 30 bytes hold no two flights, which are refused although two bytes hold them.
+  length = 2;
+  ArchiveWriter few;
+  few(length);
+  std::vector<Flight<2>> flights;
+  CHECK_THROWS_AS(ArchiveReader(few.written() + std::string(30, '\0'), "a")(flights), UserError);
+  CHECK(flights.capacity() == 0);
+  length = ~std::uint64_t{0} / 16;
   AnyRunState saved;
   std::string bytes(1000, '\0');
   bytes[0] = 2;  // neither disks nor spheres

@@ -63,6 +63,18 @@ TEST_CASE("ChildProcess: an interrupt ends it where it shares them, and not wher
   CHECK(shielded.last_words() == "up\nwell");
 }
 
+TEST_CASE("ChildProcess: a shielded process outlives every signal that ends a run") {
+  for (const int signal : kInterrupts) {
+    CAPTURE(signal);
+    ChildProcess child({"sh", "-c", "echo $$ >&2; read line; echo well >&2"});
+    std::string words;
+    while (words.find('\n') == words.npos) words += child.new_words();
+    kill(std::stoi(words), signal);
+    CHECK(child.wait());
+    CHECK(child.new_words() == "well\n");
+  }
+}
+
 // The pipe holds 64 kB.
 TEST_CASE(
     "ChildProcess: after a stop request, a process that does not read its input is given up") {

@@ -86,6 +86,41 @@ TEST_CASE("Written files: files with the names of temporary files stay") {
   CHECK(names_in(folder / "") == std::set<std::string>{temporary, "file", "file.part"});
 }
 
+// A killed run leaves its hidden files without a lock.
+TEST_CASE("Written files: hidden files that killed runs have left are removed") {
+  const TemporaryFolder folder;
+  std::filesystem::path left;
+  {
+    const NewFile part = new_file_beside(folder / "killed");
+    REQUIRE(part.file);
+    left = part.path;
+  }
+  write_bytes(left.string() + ".records", "frames");
+  const NewFile used = new_file_beside(folder / "other");
+  const std::set<std::string> others = {".hidden", ".a.clatter-7-0.txt", "b.clatter-7-0",
+                                        ".clatter-7-0", used.path.filename()};
+  for (const std::string& name : others) {
+    if (folder / name != used.path) write_bytes(folder / name, "precious");
+  }
+  require_writable(folder / "file");
+  CHECK(names_in(folder / "") == others);
+  write_file(folder / "file", "bytes");
+  CHECK(bytes_of(folder / "file") == "bytes");
+}
+
+TEST_CASE("Written files: a run is never taken for a killed one while it writes") {
+  const TemporaryFolder folder;
+  std::atomic<bool> done = false;
+  std::jthread remover([&] {
+    while (!done) remove_leftovers(folder / "");
+  });
+  for (int round = 0; round < 300; ++round) {
+    CHECK_NOTHROW(write_file(folder / "file", std::to_string(round)));
+    CHECK(bytes_of(folder / "file") == std::to_string(round));
+  }
+  done = true;
+}
+
 // As the superuser too, who may write every file.
 TEST_CASE("Written files: a write-protected file is an error, and stays") {
   const TemporaryFolder folder;

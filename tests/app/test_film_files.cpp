@@ -1,0 +1,82 @@
+// The files of films, read by their specifications (read_film.py) instead of the encoder.
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "tests/app/readers.h"
+
+namespace clatter {
+
+using nlohmann::json;
+
+namespace {
+
+// 150 frames: three pieces. The third picture of a second has no decimal time.
+const std::string kFilmOf5Seconds =
+    "clatter render vibrated --size 160x120 --fps 30 --speed 1 --to 5 --quiet ";
+
+// Picture k is at k/30 s, up to the ticks of the format.
+void check_times(const json& film, long pictures, double tick) {
+  CHECK(film.at("pictures") == pictures);
+  CHECK(std::fabs(film.at("end").get<double>() - static_cast<double>(pictures) / 30.0) <= tick);
+  for (std::size_t k = 0; k < film.at("times").size(); ++k) {
+    const double off = film.at("times")[k].get<double>() - static_cast<double>(k) / 30.0;
+    CHECK(std::fabs(off) <= tick);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("Film files: every format has all pictures at their times, in one stream") {
+  const Shell shell;
+  struct Format {
+    const char* extension;
+    double tick;  // s
+  };
+  for (const Format& format : {Format{"gif", 0.0051}, Format{"mp4", 1e-4}, Format{"mov", 1e-4},
+                               Format{"webm", 1.1e-3}, Format{"mkv", 1.1e-3}}) {
+    CAPTURE(format.extension);
+    const std::string file = std::string("film.") + format.extension;
+    REQUIRE(shell.run(kFilmOf5Seconds + "--out " + file).code == 0);
+    check_times(read_by(shell, "read_film.py", file), 150, format.tick);
+  }
+}
+
+TEST_CASE("Film files: joined parts and a resumed GIF have one stream too") {
+  const Shell shell;
+  REQUIRE(shell.run(kFilmOf5Seconds + "--out whole.gif").code == 0);
+  shell.run("mkdir parts");
+  for (const std::string part : {"0:120 --out parts/000000.gif", "120: --out parts/000120.gif"}) {
+    REQUIRE(shell.run(kFilmOf5Seconds + "--frames " + part).code == 0);
+  }
+  REQUIRE(shell.run(kFilmOf5Seconds + "--join parts --out joined.gif").code == 0);
+  CHECK(shell.read("joined.gif") == shell.read("whole.gif"));
+  check_times(read_by(shell, "read_film.py", "joined.gif"), 150, 0.0051);
+  check_times(read_by(shell, "read_film.py", "parts/000120.gif"), 30, 0.0051);
+}
+
+TEST_CASE("Film files: each picture of a transparent WebM has an opacity") {
+  const Shell shell;
+  REQUIRE(shell.run(kFilmOf5Seconds + "--transparent --out film.webm").code == 0);
+  const json film = read_by(shell, "read_film.py", "film.webm");
+  check_times(film, 150, 1.1e-3);
+  CHECK(film.at("opacities") == 150);
+}
+
+// A namespace of processes with the /proc of the outside, as in some containers.
+TEST_CASE("Film files: a film is made where this process has another number in /proc") {
+  const Shell shell;
+  if (shell.run("unshare -pf true").code != 0) {
+    MESSAGE("[skipped] this needs the right to make a namespace");
+    return;
+  }
+  const Outcome outcome =
+      shell.run("unshare -pf clatter render vibrated --size 160x120 --to 1 --out film.mp4 --quiet");
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(read_by(shell, "read_film.py", "film.mp4").at("pictures") == 15);
+}
+
+}  // namespace clatter
