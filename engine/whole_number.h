@@ -1,6 +1,7 @@
 #pragma once
 
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <string_view>
 
@@ -19,6 +20,13 @@ std::optional<T> whole_number(std::string_view text) {
 /// The number in a text; absent if the text is anything else.
 inline std::optional<double> real_number(std::string_view text) {
   return whole_number<double>(text);
+}
+
+/// The finite number in a text, which may have a sign; absent if the text is anything else.
+inline std::optional<double> finite_number(std::string_view text) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  const std::optional<double> number = real_number(text);
+  return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
 }  // namespace clatter

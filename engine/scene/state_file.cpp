@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -13,8 +12,10 @@
 
 #include "engine/dimension.h"
 #include "engine/error.h"
+#include "engine/scene/csv_line.h"
 #include "engine/scene/limits.h"
 #include "engine/scene/text.h"
+#include "engine/whole_number.h"
 
 namespace clatter {
 
@@ -48,19 +49,6 @@ std::string header_advice() {
   return "begin the file with the line " + names_of<D>(0, kSpinColumn<D>, ",");
 }
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) + 1 - first);
-}
-
-/// Text between two commas, without surrounding blanks.
-struct Cell {
-  std::string_view text;
-  int column = 1;  // of its first character in the line
-};
-
 /// Parser of a CSV text.
 template <int D>
 class Reader {
@@ -80,17 +68,14 @@ class Reader {
   }
 
  private:
-  Place place_of(const Cell& cell) const { return {file_, number_, cell.column}; }
+  Place place_of(const CsvCell& cell) const { return {file_, number_, cell.column}; }
   bool next_line();
-  std::size_t cells_in_line() const { return 1 + std::ranges::count(line_, ','); }
-  template <class Visit>
-  void visit_cells(const Visit& visit);
   void read_header();
-  int column_of(const Cell& cell) const;
+  int column_of(const CsvCell& cell) const;
   void read_particle(State<D>& state);
-  double number_in(const Cell& cell) const;
-  void check_number(const Cell& cell, int column, double number) const;
-  void check_place(const Cell& cell, int axis, double centre) const;
+  double number_in(const CsvCell& cell) const;
+  void check_number(const CsvCell& cell, int column, double number) const;
+  void check_place(const CsvCell& cell, int axis, double centre) const;
   void refuse_overlaps(const std::vector<Vec<D>>& centres) const;
   [[noreturn]] void refuse_pair(std::size_t a, std::size_t b, double distance) const;
 
@@ -111,30 +96,13 @@ bool Reader<D>::next_line() {
     line_ = rest_.substr(0, end);
     rest_.remove_prefix(std::min(end + 1, rest_.size()));
     ++number_;
-    const std::string_view content = trimmed(line_);
-    if (!content.empty() && content.front() != '#') return true;
+    if (!is_csv_comment(line_)) return true;
   }
   return false;
 }
 
-/// Calls visit(cell) for the cells of line_.
 template <int D>
-template <class Visit>
-void Reader<D>::visit_cells(const Visit& visit) {
-  Cell cell;
-  for (std::size_t begin = 0; begin <= line_.size();) {
-    const std::size_t end = std::min(line_.find(',', begin), line_.size());
-    const std::string_view whole = line_.substr(begin, end - begin);
-    cell.text = trimmed(whole);
-    const std::size_t offset = cell.text.empty() ? 0 : cell.text.data() - whole.data();
-    cell.column = static_cast<int>(begin + offset + 1);
-    visit(cell);
-    begin = end + 1;
-  }
-}
-
-template <int D>
-int Reader<D>::column_of(const Cell& cell) const {
+int Reader<D>::column_of(const CsvCell& cell) const {
   const auto name = std::ranges::find(kNames<D>, cell.text);
   if (name == kNames<D>.end()) {
     const std::vector<std::string> names(kNames<D>.begin(), kNames<D>.end());
@@ -161,26 +129,24 @@ int Reader<D>::column_of(const Cell& cell) const {
 template <int D>
 void Reader<D>::read_header() {
   if (!next_line()) throw UserError({file_}, "the file has no header line", header_advice<D>());
-  visit_cells([&](const Cell& cell) { columns_.push_back(column_of(cell)); });
+  for (const CsvCell& cell : csv_cells(line_)) columns_.push_back(column_of(cell));
   for (int column = 0; column < kSpinColumn<D>; ++column) {
     if (std::ranges::find(columns_, column) != columns_.end()) continue;
-    throw UserError(place_of(Cell{}), "the column " + in_quotes(kNames<D>[column]) + " is missing",
+    throw UserError(place_of(CsvCell{}),
+                    "the column " + in_quotes(kNames<D>[column]) + " is missing",
                     header_advice<D>());
   }
 }
 
 template <int D>
-double Reader<D>::number_in(const Cell& cell) const {
-  double number = 0.0;
-  const char* const end = cell.text.data() + cell.text.size();
-  const auto [stopped, error] = std::from_chars(cell.text.data(), end, number);
-  if (error == std::errc() && stopped == end && std::isfinite(number)) return number;
+double Reader<D>::number_in(const CsvCell& cell) const {
+  if (const std::optional<double> number = finite_number(cell.text)) return *number;
   throw UserError(place_of(cell), in_quotes(cell.text.substr(0, 40)) + " is no finite number",
                   "write, say, -0.25 or 1.5e-3");
 }
 
 template <int D>
-void Reader<D>::check_number(const Cell& cell, int column, double number) const {
+void Reader<D>::check_number(const CsvCell& cell, int column, double number) const {
   if (column < D) {
     check_place(cell, column, number);
   } else if (std::fabs(number) > kMaxSpeed) {
@@ -192,7 +158,7 @@ void Reader<D>::check_number(const Cell& cell, int column, double number) const 
 /// Throws unless a centre is in the box along a periodic axis, or between the walls at their
 /// positions of time 0. A moving wall may then be outside of the box.
 template <int D>
-void Reader<D>::check_place(const Cell& cell, int axis, double centre) const {
+void Reader<D>::check_place(const CsvCell& cell, int axis, double centre) const {
   const std::string name(kNames<D>[axis]);
   const double length = scene_.box[axis];
   if (scene_.periodic(axis)) {
@@ -216,20 +182,19 @@ void Reader<D>::check_place(const Cell& cell, int axis, double centre) const {
 
 template <int D>
 void Reader<D>::read_particle(State<D>& state) {
-  if (cells_in_line() != columns_.size()) {
-    throw UserError(place_of(Cell{}),
-                    "this line has " + std::to_string(cells_in_line()) + " cells, the header has " +
+  const std::vector<CsvCell> cells = csv_cells(line_);
+  if (cells.size() != columns_.size()) {
+    throw UserError(place_of(CsvCell{}),
+                    "this line has " + std::to_string(cells.size()) + " cells, the header has " +
                         std::to_string(columns_.size()),
                     "give every column a number");
   }
   std::array<double, kColumns<D>> numbers{};
-  std::size_t at = 0;
-  visit_cells([&](const Cell& cell) {
-    const int column = columns_[at++];
-    double& number = numbers[static_cast<std::size_t>(column)];
-    number = number_in(cell);
-    check_number(cell, column, number);
-  });
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    double& number = numbers[static_cast<std::size_t>(columns_[k])];
+    number = number_in(cells[k]);
+    check_number(cells[k], columns_[k], number);
+  }
   state.positions.emplace_back(Eigen::Map<const Vec<D>>(&numbers[0]));
   state.velocities.emplace_back(Eigen::Map<const Vec<D>>(&numbers[D]));
   if (scene_.spins()) {
