@@ -10,6 +10,7 @@
 
 #include "engine/dimension.h"
 #include "engine/dynamics/simulation.h"
+#include "engine/initial/gaussian_velocities.h"
 #include "engine/initial/random_insertion.h"
 #include "engine/physics/lattice.h"
 #include "engine/physics/random.h"
@@ -26,28 +27,6 @@ static constexpr double kInsertionFraction = D == 2 ? 0.54 : 0.37;
 // Krauth 2011), and spheres crystallise spontaneously.
 template <int D>
 static constexpr double kFluidFraction = D == 2 ? 0.7 : 0.54;
-
-template <int D>
-static std::vector<Vec<D>> gaussian_velocities(std::size_t count, double temperature,
-                                               std::uint64_t seed, const StopRequest& stop) {
-  std::vector<Vec<D>> velocities(count);
-  Vec<D> mean = Vec<D>::Zero();
-  for (std::size_t i = 0; i < count; ++i) {
-    stop.check();
-    Random random(seed, Stream::Velocity, static_cast<std::uint32_t>(i), 0);
-    for (double& component : velocities[i]) component = random.normal();
-    mean += velocities[i] / static_cast<double>(count);
-  }
-  double twice_energy = 0.0;
-  for (Vec<D>& v : velocities) {
-    if (count >= 2) v -= mean;
-    twice_energy += v.squaredNorm();
-  }
-  const double freedoms = static_cast<double>(D) * static_cast<double>(count);
-  const double scale = std::sqrt(freedoms * temperature / twice_energy);
-  for (Vec<D>& v : velocities) v = temperature > 0.0 ? Vec<D>(v * scale) : Vec<D>::Zero();
-  return velocities;
-}
 
 // The mean is not removed, because spins have no conservation law.
 template <int D>
