@@ -1,20 +1,21 @@
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
-#include <optional>
 
 #include "app/results/particle_frame.h"
-#include "app/results/trajectory.h"
 
 namespace clatter {
 
-/// Reads a frame of a trajectory; absent: the last. A start state in CSV is a trajectory of one
-/// frame. Particles are inside the box along periodic axes. In formats for three dimensions a frame
-/// with all positions and velocities at z = 0 has disks. Throws UserError with the place for a
-/// malformed file, for a missing frame, and for particles whose diameter is not 1.
-ParticleFrame read_frame(const std::filesystem::path& path, TrajectoryFormat format,
-                         std::optional<std::size_t> frame);
+/// Whether the name of a file is that of a format of uncompressed text.
+bool is_plain_text(const std::filesystem::path& path);
+
+/// Reads a frame of a trajectory, a start state in CSV, or a data file of LAMMPS. The extension
+/// names the format; text formats may be compressed by gzip. A start state is a trajectory of one
+/// frame. Lengths are divided by the chosen scale. Particles are inside the box along periodic
+/// axes. Throws UserError with the place for a malformed file, for a missing frame, and for
+/// particles whose diameter is not 1. `flag` names the file in errors of its extension.
+ParticleFrame read_frame(const std::filesystem::path& path, const FrameChoice& choice,
+                         const char* flag);
 
 /// Moves particles into the box along periodic axes, if the frame has a box. Throws UserError with
 /// the file of the frame if a periodic image is no whole number of 32 bits.

@@ -73,8 +73,9 @@ GsdReader::GsdReader(const std::filesystem::path& path)
   const auto text_of = [](const auto& bytes) {
     return std::string(bytes.begin(), std::ranges::find(bytes, '\0'));
   };
-  if (text_of(header.schema) != "hoomd" || header.file_version >> 16 > 2) {
-    throw UserError({path_.string()}, "the GSD file is not of the schema \"hoomd\", version 1 or 2",
+  if (text_of(header.schema) != "hoomd" || header.schema_version >> 16 > 1 ||
+      header.file_version >> 16 > 2) {
+    throw UserError({path_.string()}, "the GSD file is not of the schema \"hoomd\", version 0 or 1",
                     "give a trajectory of HOOMD-blue");
   }
   if (header.names_units > size_ / kGsdNameUnit ||
@@ -91,43 +92,48 @@ GsdReader::GsdReader(const std::filesystem::path& path)
     }
   }
   const std::string index = bytes_at(header.index, header.index_entries * sizeof(GsdEntry));
+  bool ended = false;  // free entries follow the others
   for (std::size_t place = 0; place < index.size(); place += sizeof(GsdEntry)) {
     GsdEntry entry;
     std::memcpy(&entry, index.data() + place, sizeof(entry));
-    if (entry.place == 0) break;
+    ended = ended || entry.place == 0;
+    if (entry.place == 0) continue;
     const std::uint64_t size = gsd_number_size(static_cast<GsdType>(entry.type));
     const auto begin = static_cast<std::uint64_t>(entry.place);
     const bool fits = size > 0 && entry.columns > 0 && begin <= size_ &&
                       entry.rows <= (size_ - begin) / size / entry.columns;
-    const bool ordered = entry.frame < header.index_entries &&
+    const bool ordered = !ended && entry.frame < header.index_entries &&
                          (chunks_.empty() || entry.frame >= chunks_.back().frame);
-    if (!fits || !ordered || entry.name >= names_.size()) {
+    if (!fits || !ordered || entry.name >= names_.size() || entry.flags != 0) {
       refuse_damaged("an entry of its index is wrong");
     }
-    chunks_.push_back({entry.frame, entry.rows * entry.columns, begin, entry.name, entry.type});
+    chunks_.push_back({entry.frame, entry.rows, entry.columns, begin, entry.name, entry.type});
   }
   frames_ = chunks_.empty() ? 0 : chunks_.back().frame + 1;
 }
 
-std::vector<double> GsdReader::numbers(const std::string& name, std::uint64_t frame,
-                                       std::uint64_t count) {
+const GsdReader::Chunk* GsdReader::find(const std::string& name, std::uint64_t frame) const {
   const auto number = std::ranges::find(names_, name) - names_.begin();
-  for (const std::uint64_t place : {frame, std::uint64_t{0}}) {
-    const auto begin = std::ranges::lower_bound(chunks_, place, {}, &Chunk::frame);
-    const auto end = std::ranges::upper_bound(chunks_, place, {}, &Chunk::frame);
-    const auto chunk = std::find_if(
-        begin, end, [&](const Chunk& each) { return std::ptrdiff_t{each.name} == number; });
-    if (chunk == end) continue;
-    if (chunk->count != count) {
-      throw UserError({path_.string()},
-                      "the chunk " + name + " has " + std::to_string(chunk->count) +
-                          " numbers instead of " + std::to_string(count),
-                      "give a GSD file whose chunks have the shapes of HOOMD-blue");
-    }
-    const auto type = static_cast<GsdType>(chunk->type);
-    return as_doubles(bytes_at(chunk->place, count * gsd_number_size(type)), type);
+  const auto begin = std::ranges::lower_bound(chunks_, frame, {}, &Chunk::frame);
+  const auto end = std::ranges::upper_bound(chunks_, frame, {}, &Chunk::frame);
+  const auto chunk = std::find_if(
+      begin, end, [&](const Chunk& each) { return std::ptrdiff_t{each.name} == number; });
+  return chunk == end ? nullptr : &*chunk;
+}
+
+std::optional<std::vector<double>> GsdReader::numbers(const std::string& name, std::uint64_t frame,
+                                                      std::uint64_t rows, std::uint64_t columns) {
+  const Chunk* const chunk = find(name, frame);
+  if (!chunk) return std::nullopt;
+  if (chunk->rows != rows || chunk->columns != columns) {
+    throw UserError({path_.string()},
+                    "the chunk " + name + " has the shape " + std::to_string(chunk->rows) + " x " +
+                        std::to_string(chunk->columns) + " instead of " + std::to_string(rows) +
+                        " x " + std::to_string(columns),
+                    "give a GSD file whose chunks have the shapes of HOOMD-blue");
   }
-  return {};
+  const auto type = static_cast<GsdType>(chunk->type);
+  return as_doubles(bytes_at(chunk->place, rows * columns * gsd_number_size(type)), type);
 }
 
 }  // namespace clatter

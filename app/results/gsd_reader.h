@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,19 +16,26 @@ class GsdReader {
 
   /// Number of frames.
   std::uint64_t frames() const { return frames_; }
-  /// The numbers of a chunk of a frame, or of the first frame if that frame lacks it; empty: the
-  /// file has none. Throws UserError if there are not `count` numbers.
-  std::vector<double> numbers(const std::string& name, std::uint64_t frame, std::uint64_t count);
+  /// Whether a frame has a chunk.
+  bool has(const std::string& name, std::uint64_t frame) const {
+    return find(name, frame) != nullptr;
+  }
+  /// The numbers of a chunk of a frame with rows of `columns` numbers; absent: the frame has no
+  /// such chunk. Throws UserError if the chunk has another shape.
+  std::optional<std::vector<double>> numbers(const std::string& name, std::uint64_t frame,
+                                             std::uint64_t rows, std::uint64_t columns);
 
  private:
   struct Chunk {
     std::uint64_t frame;
-    std::uint64_t count;
+    std::uint64_t rows;
+    std::uint64_t columns;
     std::uint64_t place;
     std::uint16_t name;
     std::uint8_t type;
   };
 
+  const Chunk* find(const std::string& name, std::uint64_t frame) const;
   std::string bytes_at(std::uint64_t place, std::uint64_t size);
   [[noreturn]] void refuse_damaged(const std::string& what) const;
 

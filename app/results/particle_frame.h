@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace clatter {
@@ -23,11 +24,14 @@ struct ParticleFrame {
   double time = 0.0;               ///< 0 if the file has no times
   std::optional<ParticleBox> box;  ///< absent in CSV
   std::optional<double> inertia;   ///< q = 4I/(m a^2), if the file has it
+  double rounding = 1e-9;          ///< relative error of the file's numbers that is accepted
   std::vector<Vector> positions;   ///< [N] relative to the lower corner of the box
-  std::vector<Vector> velocities;  ///< [N]
+  std::vector<Vector> velocities;  ///< [N] empty: the file has none
   std::vector<Vector> spins;       ///< [N] angular velocities; empty: none
   std::vector<Vector> images;      ///< [N] periodic images
   std::vector<double> masses;      ///< [N] equal; empty: the file has none
+  std::vector<double> diameters;   ///< [N] equal; empty: the file has none
+  std::vector<int> lines;          ///< [N] places in a text file; empty: a binary file
 };
 
 template <class Archive>
@@ -38,21 +42,51 @@ void visit(Archive& io, ParticleBox& box) {
 
 template <class Archive>
 void visit(Archive& io, ParticleFrame& frame) {
-  auto& [dimension, number, time, box, inertia, positions, velocities, spins, images, masses] =
-      frame;
-  io(dimension, number, time, box, inertia, positions, velocities, spins, images, masses);
+  auto& [dimension, number, time, box, inertia, rounding, positions, velocities, spins, images,
+         masses, diameters, lines] = frame;
+  io(dimension, number, time, box, inertia, rounding, positions, velocities, spins, images, masses,
+     diameters, lines);
 }
 
-/// Whether a frame has disks: no position or velocity out of the plane z = 0. Without particles, it
-/// has disks if its box is absent or a layer at most one diameter deep.
-bool is_flat(const ParticleFrame& frame);
+/// Which particles of a file are wanted, and how.
+struct FrameChoice {
+  std::optional<std::size_t> frame;  ///< of a trajectory, from 0; absent: the last
+  std::string group;                 ///< of an H5MD file; empty: the only one
+  std::optional<int> dimension;      ///< 2: disks, 3: spheres; absent: that of the file
+  double scale = 1.0;                ///< unit of length: the diameter in the lengths of the file
+  bool needs_velocities = true;      ///< whether a file without velocities is an error
+};
+
+/// The first particle that is not in the plane z of particle 0, or leaves it, by more than rounding
+/// of lengths of at least `scale`; absent: none.
+std::optional<std::size_t> first_out_of_plane(const ParticleFrame& frame, double scale);
+
+/// The dimension of a frame in a format for three dimensions: the chosen one, or 2 if all particles
+/// stay in a plane z. Without particles the dimension is 2 if the box is absent or a layer at most
+/// one diameter deep. Throws UserError if disks are chosen, and the particles leave the plane.
+int dimension_of(const ParticleFrame& frame, const FrameChoice& choice,
+                 const std::filesystem::path& path);
+
+/// Moves the lower corner of the box to 0, and disks to z = 0.
+void move_corner(ParticleFrame& frame, const ParticleFrame::Vector& corner);
 
 /// The number of a frame in the run that wrote it, from the number in a file; 0 if that has no
 /// meaning.
 long step_of(double number);
 
+/// Throws the UserError of a particle of a frame, with its line in a text file.
+[[noreturn]] void refuse_particle(const ParticleFrame& frame, std::size_t particle,
+                                  const std::filesystem::path& path, const std::string& problem,
+                                  const std::string& advice);
+
 /// Throws the UserError of a file that lacks the wanted frame. `frames` is the number of its
 /// frames.
 [[noreturn]] void refuse_frame(const std::filesystem::path& path, std::size_t frames);
+
+/// Whether a component of an edge of a box, across its axis, is more than rounding.
+bool is_tilt(double across, const ParticleBox& box);
+
+/// Throws the UserError of a box that is not rectangular along the axes.
+[[noreturn]] void refuse_tilt(const std::filesystem::path& path, int line = 0);
 
 }  // namespace clatter

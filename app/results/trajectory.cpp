@@ -101,11 +101,14 @@ void add_csv(TextBuffer& text, const TrajectoryFrame<D>& frame) {
 
 }  // namespace
 
+void require_regular(const std::filesystem::path& file, const char* flag) {
+  if (!is_special(file)) return;
+  throw UserError({flag, 0, 0}, file.string() + " is not a regular file",
+                  "give the name of a file, not of a device or a pipe");
+}
+
 TrajectoryFormat trajectory_format(const std::filesystem::path& file, const char* flag) {
-  if (is_special(file)) {
-    throw UserError({flag, 0, 0}, file.string() + " is not a regular file",
-                    "give the name of a file, not of a device or a pipe");
-  }
+  require_regular(file, flag);
   const std::string extension = file.extension();
   if (extension == ".xyz" || extension == ".extxyz") return TrajectoryFormat::ExtXyz;
   if (extension == ".lammpstrj" || extension == ".dump") return TrajectoryFormat::LammpsDump;

@@ -18,6 +18,9 @@ enum class TrajectoryFormat {
   H5md         ///< HDF5 file in the H5MD structure: .h5md
 };
 
+/// Throws UserError that names `flag` for a device or a pipe.
+void require_regular(const std::filesystem::path& file, const char* flag);
+
 /// The format of a file extension. Throws UserError that names `flag` for other extensions, and for
 /// a device or a pipe, which cannot be continued.
 TrajectoryFormat trajectory_format(const std::filesystem::path& file, const char* flag);

@@ -1,5 +1,6 @@
 #include "app/runs/convert.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -17,6 +18,7 @@
 #include "engine/checkpoint/checkpoint.h"
 #include "engine/dimension.h"
 #include "engine/error.h"
+#include "engine/initial/gaussian_velocities.h"
 #include "engine/publish/scheduled_run.h"
 #include "engine/scene/scene_file.h"
 #include "engine/scene/state_file.h"
@@ -61,8 +63,25 @@ ParticleFrame frame_of_checkpoint(const std::string& file) {
   });
 }
 
-bool is_text(TrajectoryFormat format) {
-  return format != TrajectoryFormat::Gsd && format != TrajectoryFormat::H5md;
+// Throws for a choice that has no meaning for the only state of a checkpoint.
+void require_no_choice(const FrameChoice& choice) {
+  const auto refuse = [](const std::string& flag, const std::string& problem) {
+    throw UserError({flag, 0, 0}, problem, "omit " + flag);
+  };
+  if (choice.frame) refuse("--frame", "a checkpoint has one state");
+  if (choice.dimension) refuse("--dimensions", "a checkpoint has disks or spheres");
+  if (choice.scale != 1.0) refuse("--scale", "the lengths of a checkpoint are in diameters");
+  if (!choice.group.empty()) refuse("--group", "a checkpoint is no H5MD file");
+}
+
+// Tells that particles of a deep box are disks.
+void tell_disks(const ParticleFrame& frame, const ConvertOptions& options) {
+  if (options.choice.dimension || frame.dimension == 3 || !frame.box) return;
+  if (frame.box->lengths[2] <= 1.0 + frame.rounding) return;
+  std::fprintf(stderr,
+               "note: all particles of %s move in one plane z, so they are disks; "
+               "--dimensions 3 makes spheres\n",
+               options.in.c_str());
 }
 
 ParticleFrame frame_of_file(const ConvertOptions& options) {
@@ -74,14 +93,13 @@ ParticleFrame frame_of_file(const ConvertOptions& options) {
     throw UserError({options.in}, "this is a folder", "give a file in it");
   }
   if (!is_special(options.in) && is_checkpoint(options.in)) {
-    if (options.frame) {
-      throw UserError({"--frame", 0, 0}, "a checkpoint has one state", "omit --frame");
-    }
+    require_no_choice(options.choice);
     return frame_of_checkpoint(options.in);
   }
-  const TrajectoryFormat format = trajectory_format(options.in, "IN");
-  if (is_text(format)) tell_missing_newline(options.in);
-  return read_frame(options.in, format, options.frame);
+  if (is_plain_text(options.in)) tell_missing_newline(options.in);
+  const ParticleFrame frame = read_frame(options.in, options.choice, "IN");
+  tell_disks(frame, options);
+  return frame;
 }
 
 // Gives the particles of a CSV the box of the scene.
@@ -99,6 +117,19 @@ void add_box(ParticleFrame& frame, const ConvertOptions& options) {
   }
   set_box(frame, scene);
   wrap_into_box(frame, options.in);
+}
+
+// Draws the velocities of particles that have none, or are all at rest.
+void draw_velocities(ParticleFrame& frame, const ConvertOptions& options) {
+  if (!options.temperature) return;
+  const auto moves = [](const ParticleFrame::Vector& v) { return v != ParticleFrame::Vector{}; };
+  if (std::ranges::any_of(frame.velocities, moves)) {
+    throw UserError({"--temperature", 0, 0}, options.in + " has velocities", "omit --temperature");
+  }
+  with_dimension(frame.dimension, [&](auto dimension) {
+    frame.velocities = all_in_space(gaussian_velocities<dimension()>(
+        frame.positions.size(), *options.temperature, options.seed));
+  });
 }
 
 template <int D>
@@ -175,6 +206,7 @@ int convert(const ConvertOptions& options) {
   require_writable_file(options.out, "OUT");
   ParticleFrame frame = frame_of_file(options);
   add_box(frame, options);
+  draw_velocities(frame, options);
   catch_interrupts();  // the new file is written whole, and a signal ends the reading at once
   with_dimension(frame.dimension, [&](auto dimension) {
     if (format == TrajectoryFormat::Csv) {

@@ -1,17 +1,21 @@
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
+
+#include "app/results/particle_frame.h"
 
 namespace clatter {
 
 /// The options of `clatter convert`.
 struct ConvertOptions {
-  std::string in;                    ///< trajectory, start state or checkpoint
-  std::string out;                   ///< start state (.csv) or trajectory of one frame
-  std::optional<std::size_t> frame;  ///< of a trajectory, from 0; absent: the last
-  std::string scene;                 ///< scene whose box the particles of a CSV have; empty: none
+  std::string in;      ///< trajectory, start state, data file of LAMMPS or checkpoint
+  std::string out;     ///< start state (.csv) or trajectory of one frame
+  FrameChoice choice;  ///< of the particles of a file
+  std::optional<double> temperature;  ///< of velocities that are drawn; absent: those of the file
+  std::uint64_t seed = 1;             ///< of these velocities
+  std::string scene;                  ///< scene whose box the particles of a CSV have; empty: none
 };
 
 /// Writes a frame or the state of a checkpoint in another format. Returns the exit code. Throws

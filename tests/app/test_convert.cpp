@@ -155,8 +155,9 @@ TEST_CASE("Convert: files of other programs with the same columns") {
     CHECK(says(shell.read("o.xyz"), file == "o.gsd" ? "pbc=\"T T T\"" : "pbc=\"T F F\" Time=0.5"));
   }
   for (const std::string file : {"heavy.gsd", "heavy.h5md"}) {
-    check_refused(shell, "clatter convert " + file + " o.csv",
-                  {file + ": masses differ: 1 and 2.5; give particles of the same mass"});
+    check_refused(
+        shell, "clatter convert " + file + " o.csv",
+        {file + ": particle 1: masses differ: 1 and 2.5; give particles of the same mass"});
   }
   check_refused(shell, "clatter convert huge.h5md o.csv",
                 {"huge.h5md: the quantity \"position\" is too large"});
@@ -208,20 +209,20 @@ TEST_CASE("Convert: malformed text files are refused with the line") {
   refused("a.xyz", changed("velo:R:3", "v:R:3"), {"a.xyz:2: the velocities are missing"});
   refused("a.xyz", changed("velo:R:3", "velo:R:9999999999"), {"\"velo\" has a wrong width"});
   refused("a.xyz", changed("0.25 0 0.5", "0.25 0 0.4"),
-          {"a.xyz:3: the radius is 0.4 instead of 0.5; divide all lengths by the diameter"});
+          {"a.xyz:4: diameters differ: 0.8 and 1; give particles of one size only"});
   refused("a.dump", "ITEM: TIMESTEP\n", {"a.dump:1: the file ends within a frame"});
   refused("a.dump", "nothing", {"a.dump:1: unexpected line \"nothing\""});
   refused("a.dump",
           "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n"
           "0 1\n0 1\n0 1\nITEM: ATOMS id xs ys zs\n1 0 0 0\n",
-          {"a.dump:9: the positions are missing"});
+          {"a.dump:9: the velocities are missing"});
   refused("a.csv", "", {"a.csv: the file has no header line"});
   refused("a.dump",
           "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS\n"
           "0 9\n0 9\n0 9\nITEM: ATOMS id x y vx vy\n1 1 1 0 0\n",
           {"a.dump:5: the kinds of boundaries are missing"});
   refused("a.xyz", changed("radius:R:1", "vel:R:1"), {"a.xyz:2: the property \"vel\""});
-  refused("a.csv", "x,y,vx\n", {"a.csv:1: the velocities are missing"});
+  refused("a.csv", "x,y,vx\n", {"a.csv:1: the column vy is missing"});
   refused("a.csv", "x;y;vx;vy\n", {"a.csv:1: unknown column \"x;y;vx;vy\"", "between commas"});
   refused("a.csv", "x,y,vx,vy,w\n", {"a.csv:1: unknown column \"w\""});
   refused("a.csv", "x,y,vx,vy\n1,2,3\n", {"a.csv:2: this line has 3 columns instead of 4"});
@@ -261,7 +262,9 @@ TEST_CASE("Convert: no quantity is lost, doubled or invented") {
            "0 9\nITEM: ATOMS " +
            columns + "\n" + atom + "\n";
   };
-  refused("a.dump", dump("x y z vx vy", "1 2 3 0 0"), "the velocities of spheres lack vz");
+  std::string deep = dump("x y z vx vy", "1 2 3 0 0\n4 5 6 0 0");
+  refused("a.dump", deep.replace(deep.find("\n1\n"), 3, "\n2\n"),
+          "the velocities of spheres lack vz");
   refused("a.dump", dump("x y vx vy vz", "1 2 0 0 3"), "the positions of spheres lack z");
   refused("a.dump", dump("x x y vx vy", "1 1 2 0 0"), "a.dump:9: two columns are x");
   refused("a.dump", dump("x y vx vy diameter", "1 2 0 0 2"),
@@ -271,9 +274,10 @@ TEST_CASE("Convert: no quantity is lost, doubled or invented") {
   shell.write("same.xyz", masses);
   CHECK(shell.run("clatter convert same.xyz a.csv").code == 0);
   masses.replace(masses.rfind("0.5"), 3, "0.6");
-  refused("a.xyz", masses, "a.xyz: masses differ: 0.5 and 0.6; give particles of the same mass");
+  refused("a.xyz", masses, "a.xyz:4: masses differ: 0.5 and 0.6; give particles of the same mass");
   std::string two = dump("mass x y vx vy", "1 1 2 0 0\n3 4 5 0 0");
-  refused("a.dump", two.replace(two.find("\n1\n"), 3, "\n2\n"), "a.dump: masses differ: 1 and 3");
+  refused("a.dump", two.replace(two.find("\n1\n"), 3, "\n2\n"),
+          "a.dump:11: masses differ: 1 and 3");
   // Disks need no velocity along z.
   shell.write("a.dump", dump("x y z vx vy diameter", "1 2 0 3 4 1"));
   REQUIRE(shell.run("clatter convert a.dump a.csv").code == 0);
@@ -297,7 +301,7 @@ TEST_CASE("Convert: particles of a CSV are moved into the periodic box of the sc
   CHECK(says(shell.read("a.xyz"), "\nX 6.5 2 0 1 0 0 -1 2 0 0.5\n"));
   shell.write("a.csv", "x,y,vx,vy\n1e17,3,1,0\n");
   check_refused(shell, "clatter convert a.csv b.xyz --scene s.toml",
-                {"a.csv: a periodic image is no whole number of 32 bits"});
+                {"a.csv:2: a periodic image is no whole number of 32 bits"});
 }
 
 TEST_CASE("Convert: a pipe is refused, and a signal ends the reading of a scene at once") {

@@ -40,7 +40,7 @@ TEST_CASE("Damaged HDF5: a file with random bytes is read or refused") {
   REQUIRE(shell.run(kRun + "--every 5 --trajectory t.h5md").code == 0);
   const std::string whole = shell.read("t.h5md");
   const std::filesystem::path path = shell.path("t.h5md");
-  REQUIRE(read_frame(path, TrajectoryFormat::H5md, {}).positions.size() == 9);
+  REQUIRE(read_frame(path, {}, "IN").positions.size() == 9);
   std::mt19937 random(7);
   int read = 0, refused = 0;
   for (int k = 0; k < 250; ++k) {
@@ -54,7 +54,7 @@ TEST_CASE("Damaged HDF5: a file with random bytes is read or refused") {
     CAPTURE(k);
     shell.write("t.h5md", damaged);
     try {
-      read_frame(path, TrajectoryFormat::H5md, {});
+      read_frame(path, {}, "IN");
       ++read;
     } catch (const UserError& error) {
       CHECK(error.place().file == path.string());

@@ -1,0 +1,122 @@
+#include "app/results/particle_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "engine/error.h"
+#include "engine/scene/text.h"
+#include "engine/whole_number.h"
+
+namespace clatter {
+
+static constexpr std::array<const char*, kIgnored> kQuantityNames = {
+    "x",       "y",        "z",       "vx",      "vy",  "vz",  "image_x", "image_y",
+    "image_z", "omega_x",  "omega_y", "omega_z", "px",  "py",  "pz",      "xs",
+    "ys",      "zs",       "xu",      "yu",      "zu",  "xsu", "ysu",     "zsu",
+    "radius",  "diameter", "mass",    "id",      "time"};
+
+bool ParticleTable::has(int quantity) const {
+  return std::ranges::find(columns_, quantity) != columns_.end() ||
+         std::ranges::find(derived_, quantity) != derived_.end();
+}
+
+void ParticleTable::require_state(const TextLines& lines, const FrameChoice& choice,
+                                  const std::string& velocities) const {
+  for (int quantity = 0; quantity < kIgnored; ++quantity) {
+    if (std::ranges::count(columns_, quantity) < 2) continue;
+    lines.refuse(std::string("two columns are ") + kQuantityNames[quantity], "remove one of them");
+  }
+  for (const int axis : {0, 1}) {
+    const bool placed = has(kX + axis) || has(kScaled + axis) || has(kUnwrapped + axis) ||
+                        has(kScaledUnwrapped + axis);
+    if (!placed) lines.refuse("the positions are missing", "give the columns x and y");
+  }
+  for (const int vector : {+kVx, +kImage}) {
+    for (const int axis : {0, 1}) {
+      if (has(vector + axis) || !has(vector + 1 - axis)) continue;
+      lines.refuse(std::string("the column ") + kQuantityNames[vector + axis] + " is missing",
+                   "give all components, or none");
+    }
+  }
+  if (choice.needs_velocities && !has(kVx)) {
+    lines.refuse("the velocities are missing", velocities + ", or draw them with --temperature");
+  }
+}
+
+void ParticleTable::require_spheres(const TextLines& lines) const {
+  const bool placed =
+      has(kX + 2) || has(kScaled + 2) || has(kUnwrapped + 2) || has(kScaledUnwrapped + 2);
+  if (!placed) lines.refuse("the positions of spheres lack z", "give the column z");
+  if (has(kVx) && !has(kVx + 2)) {
+    lines.refuse("the velocities of spheres lack vz", "give the column vz");
+  }
+  for (const int axis : {0, 1, 2}) {
+    if (has(kImage) && !has(kImage + axis)) {
+      lines.refuse("the periodic images of spheres lack z", "give all components, or none");
+    }
+    if (!has(kOmega + axis) && (has(kOmega) || has(kOmega + 1) || has(kOmega + 2))) {
+      lines.refuse("the angular velocities of spheres need three components",
+                   "give all components, or none");
+    }
+  }
+}
+
+ParticleTable::Row ParticleTable::row(const TextLines& lines, const LineWords& words) const {
+  if (words.size() != columns_.size()) {
+    lines.refuse("this line has " + std::to_string(words.size()) + " columns instead of " +
+                     std::to_string(columns_.size()),
+                 "give every column a value");
+  }
+  Row row{};
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    if (columns_[k] < kIgnored) row[columns_[k]] = lines.real(words[k]);
+    if (columns_[k] == kReal) lines.real(words[k]);
+    if (columns_[k] == kWhole && !whole_number<long long>(words[k])) {
+      lines.refuse(in_quotes(words[k].substr(0, 40)) + " is no whole number",
+                   "give every column a value of its kind");
+    }
+  }
+  if (row[kId] != std::floor(row[kId])) {
+    lines.refuse("the number of the particle is " + number_text(row[kId]), "give whole numbers");
+  }
+  const double diameter = row[kDiameter];
+  if (has(kDiameter) && has(kRadius) &&
+      !(std::fabs(2.0 * row[kRadius] - diameter) <= 1e-9 * diameter)) {
+    lines.refuse("the radius " + number_text(row[kRadius]) + " does not fit the diameter " +
+                     number_text(diameter),
+                 "remove one of the two columns");
+  }
+  return row;
+}
+
+void ParticleTable::add(ParticleFrame& frame, const Row& row, int line) const {
+  const auto vector = [&](int at) { return std::array{row[at], row[at + 1], row[at + 2]}; };
+  frame.positions.push_back(vector(kX));
+  frame.images.push_back(vector(kImage));
+  if (has(kVx)) frame.velocities.push_back(vector(kVx));
+  if (has(kOmega) || has(kOmega + 1) || has(kOmega + 2)) frame.spins.push_back(vector(kOmega));
+  if (has(kMass)) frame.masses.push_back(row[kMass]);
+  if (has(kDiameter)) {
+    frame.diameters.push_back(row[kDiameter]);
+  } else if (has(kRadius)) {
+    frame.diameters.push_back(2.0 * row[kRadius]);
+  }
+  frame.lines.push_back(line);
+}
+
+void add_sorted(ParticleFrame& frame, const ParticleTable& table,
+                std::vector<ParticleLine> particles, const std::filesystem::path& path) {
+  const auto number = [](const ParticleLine& each) { return each.row[kId]; };
+  std::ranges::stable_sort(particles, {}, number);
+  const auto twice = std::ranges::adjacent_find(particles, {}, number);
+  const auto is_numbered = [&](const ParticleLine& each) { return number(each) != 0.0; };
+  if (twice != particles.end() && std::ranges::any_of(particles, is_numbered)) {
+    throw UserError({path.string(), std::next(twice)->line},
+                    "the particle " + number_text(number(*twice)) + " occurs twice",
+                    "give each particle its own number");
+  }
+  for (const auto& [row, line] : particles) table.add(frame, row, line);
+}
+
+}  // namespace clatter
