@@ -128,8 +128,8 @@ void Gui::draw() {
     viewport_.show(static_cast<int>(area_.low.x * scale_),
                    static_cast<int>((whole.y - area_.high.y) * scale_));
     if (screen_film_) {
-      host_.recorder()->add(static_cast<int>(area_.low.x * scale_),
-                            static_cast<int>(area_.low.y * scale_), size);
+      add_to_screen_film(static_cast<int>(area_.low.x * scale_),
+                         static_cast<int>(area_.low.y * scale_), size);
     }
   }
   gl.Viewport(0, 0, static_cast<int>(whole.x * scale_), static_cast<int>(whole.y * scale_));
@@ -197,6 +197,13 @@ void Gui::left_panel(float top, float width) {
   if (controls_.group("Window")) window_controls();
   ImGui::EndChild();
   ImGui::End();
+}
+
+// Where the top bar has no such button.
+void Gui::sound_control() {
+  if (host_.loudspeaker() && sound_button(session_, controls_, ImGui::GetContentRegionAvail().x)) {
+    listen(!session_.listens());
+  }
 }
 
 void Gui::window_controls() {

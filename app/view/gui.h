@@ -101,6 +101,7 @@ class Gui {
   bool choose_sliders(Lecture& lecture);
   bool choose_lecture_plot(Lecture& lecture);
   void scale_slider();
+  void sound_control();
   void window_controls();
   bool use_pen(bool over);
   void paint_ink(ImDrawList& list, bool over) const;
@@ -144,6 +145,7 @@ class Gui {
   void film();
   void watch_film();
   void film_screen();
+  void add_to_screen_film(int x, int y, Size size);
   void stop_screen_film();
 
   Host& host_;

@@ -229,12 +229,20 @@ void Gui::film_screen() {
   if (!viewport_.drawn()) return;
   try {
     ScreenRecorder& recorder = *host_.recorder();
-    screen_film_ = {free_name(recorder.extension()), ImGui::GetTime()};
     recorder.begin(viewport_.size());
+    screen_film_ = {free_name(recorder.extension()), ImGui::GetTime()};
     session_.tell("Stop film ends the film");
   } catch (const std::exception& error) {
     session_.tell(error.what());
   }
+}
+
+// Adds the picture on the window. A film that the host no longer records ends.
+void Gui::add_to_screen_film(int x, int y, Size size) {
+  const std::string failure = host_.recorder()->add(x, y, size);
+  if (failure.empty()) return;
+  stop_screen_film();
+  session_.tell(failure);
 }
 
 void Gui::stop_screen_film() {

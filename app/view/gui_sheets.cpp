@@ -81,6 +81,7 @@ void Gui::sheet() {
       break;
     case Sheet::Run:
       step_row(session_, controls_);
+      sound_control();
       accuracy_panel(session_, controls_);
       break;
     case Sheet::Gas:
@@ -122,6 +123,7 @@ void Gui::chosen_controls() {
   ImGui::Begin("chosen", nullptr, kFixedPanel);
   const float start = ImGui::GetCursorPosY();
   play_row(session_, controls_);
+  sound_control();
   all_controls();
   record();
   window_controls();

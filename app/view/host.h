@@ -14,13 +14,14 @@ class ScreenRecorder {
  public:
   virtual ~ScreenRecorder() = default;
 
-  /// Extension of the files, such as ".mp4".
-  virtual std::string extension() const = 0;
-  /// Begins a film of pictures of `size` pixels.
+  /// Begins a film of pictures of `size` pixels. Throws RunError if the host cannot record films.
   virtual void begin(Size size) = 0;
+  /// Extension of the file of this film, such as ".mp4".
+  virtual std::string extension() const = 0;
   /// Adds the picture of `size` pixels that is now on the window, with its upper left corner at
-  /// (x, y). It is scaled to the size of the film.
-  virtual void add(int x, int y, Size size) = 0;
+  /// (x, y). It is scaled to the size of the film. Returns why the host records no more; empty: it
+  /// does.
+  virtual std::string add(int x, int y, Size size) = 0;
   /// Ends the film, and gives it to the user as a file with this name.
   virtual void end(const std::string& name) = 0;
 };

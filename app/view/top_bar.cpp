@@ -155,6 +155,11 @@ void play_row(Session& session, Controls& controls) {
   step_row(session, controls);
 }
 
+bool sound_button(const Session& session, Controls& controls, float width) {
+  return controls.button("sound", "Sound", "A click for each collision (S)", width,
+                         session.listens());
+}
+
 BarButton top_bar(Session& session, Controls& controls, PanelVisibility& shown, bool has_sound) {
   if (shown.narrow) {
     const float icon = 1.35f * ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x;
@@ -172,10 +177,7 @@ BarButton top_bar(Session& session, Controls& controls, PanelVisibility& shown, 
   reset_button(session, controls);
   speed_field(session, controls);
   if (has_sound) {
-    if (controls.button("sound", "Sound", "A click for each collision (S)", 0.0f,
-                        session.listens())) {
-      pressed = BarButton::Sound;
-    }
+    if (sound_button(session, controls, 0.0f)) pressed = BarButton::Sound;
     ImGui::SameLine();
   }
   if (controls.button("plots", "Plots", "Curves of the run (P)")) shown.toggle(Sheet::Plots);

@@ -13,6 +13,8 @@ enum class BarButton { None, Sound, Lecture };
 /// and close the parts of the window. In a narrow window it has only the scene, play, restart, and
 /// time and health as far as there is room. Returns the pressed button.
 BarButton top_bar(Session& session, Controls& controls, PanelVisibility& shown, bool has_sound);
+/// The button of the sound, `width` pixels wide; 0: as its text. Returns whether it was pressed.
+bool sound_button(const Session& session, Controls& controls, float width);
 /// One row with the controls that a narrow top bar lacks: steps and speed.
 void step_row(Session& session, Controls& controls);
 /// One row with play, restart, steps and speed, as far as they are shown.

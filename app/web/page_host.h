@@ -1,16 +1,28 @@
 #pragma once
 
 #include "app/view/host.h"
+#include "render/sound/live_sound.h"
 
 namespace clatter {
 
 /// The MediaRecorder of a browser.
 class PageRecorder final : public ScreenRecorder {
  public:
-  std::string extension() const override;
   void begin(Size size) override;
-  void add(int x, int y, Size size) override;
+  std::string extension() const override;
+  std::string add(int x, int y, Size size) override;
   void end(const std::string& name) override;
+};
+
+/// The Web Audio of a browser. It is silent until the user has pressed a key or a button.
+class PageSpeaker final : public Loudspeaker {
+ public:
+  void open() override;
+  void play(const std::vector<std::shared_ptr<const PlayedStretch>>& played) override;
+  void close() override;
+
+ private:
+  LiveSound sound_;
 };
 
 /// A page of a browser, through the functions of `Module.page` in page.js.
@@ -26,11 +38,12 @@ class PageHost final : public Host {
   void deliver(const std::string& file) override;
   bool has_processes() const override { return false; }
   std::string link_to(const std::string& fragment) const override;
-  ScreenRecorder* recorder() override;
-  Loudspeaker* loudspeaker() override { return nullptr; }
+  ScreenRecorder* recorder() override { return &recorder_; }
+  Loudspeaker* loudspeaker() override { return &speaker_; }
 
  private:
   PageRecorder recorder_;
+  PageSpeaker speaker_;
 };
 
 }  // namespace clatter

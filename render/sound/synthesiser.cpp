@@ -131,20 +131,21 @@ void Synthesiser::ring(int pitch, std::span<const Strike> strikes,
 std::vector<StereoSample> Synthesiser::render(long end) {
   if (end <= next_) return {};
   std::vector<std::array<double, 2>> mix(static_cast<std::size_t>(end - next_));
-  const auto due =
+  const auto later =
       std::stable_partition(strikes_.begin(), strikes_.end(),
                             [end](const Strike& strike) { return strike.sample < end; });
-  std::stable_sort(strikes_.begin(), due, [](const Strike& a, const Strike& b) {
+  std::stable_sort(strikes_.begin(), later, [](const Strike& a, const Strike& b) {
     return a.pitch != b.pitch ? a.pitch < b.pitch : a.sample < b.sample;
   });
-  auto begin = strikes_.begin();
+  std::span<const Strike> due(strikes_.data(), static_cast<std::size_t>(later - strikes_.begin()));
   for (int pitch = 0; pitch < kPitches; ++pitch) {
-    const auto after =
-        std::find_if(begin, due, [pitch](const Strike& strike) { return strike.pitch != pitch; });
-    ring(pitch, {begin, after}, mix);
-    begin = after;
+    const auto other = std::find_if(
+        due.begin(), due.end(), [pitch](const Strike& strike) { return strike.pitch != pitch; });
+    const auto count = static_cast<std::size_t>(other - due.begin());
+    ring(pitch, due.first(count), mix);
+    due = due.subspan(count);
   }
-  strikes_.erase(strikes_.begin(), due);
+  strikes_.erase(strikes_.begin(), later);
   next_ = end;
   std::vector<StereoSample> samples;
   samples.reserve(mix.size());

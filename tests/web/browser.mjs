@@ -1,22 +1,28 @@
 // A headless Chromium, controlled by the DevTools protocol through pipes, and a server of files.
 // Needs nothing but node.
 
-import {spawn} from 'node:child_process';
 import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
 import {createServer} from 'node:http';
 import {tmpdir} from 'node:os';
 import {extname, join, normalize} from 'node:path';
+import {sleep, start, Tab} from './tab.mjs';
+
+export {sleep};
 
 const kinds = {'.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css',
                '.wasm': 'application/wasm'};
 
-/// Serves the files of a folder, and pages given as text by their paths. Resolves to
-/// {address, close}.
+/// Serves the files of a folder, and pages given as text by their paths; null: a file that is
+/// missing. Resolves to {address, close}.
 export function serve(folder, pages = {}) {
   const server = createServer((request, response) => {
     const path = normalize(decodeURIComponent(new URL(request.url, 'http://x').pathname));
+    if (pages[path] === null) {
+      response.writeHead(404).end();
+      return;
+    }
     if (path in pages) {
-      response.writeHead(200, {'Content-Type': 'text/html'});
+      response.writeHead(200, {'Content-Type': kinds[extname(path)]});
       response.end(pages[path]);
       return;
     }
@@ -35,22 +41,20 @@ export function serve(folder, pages = {}) {
   })));
 }
 
-export const sleep = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
-
-/// A browser with one tab.
-export class Browser {
-  static async start(program = process.env.CHROMIUM || 'chromium', flags = []) {
+/// Chromium with one tab.
+export class Browser extends Tab {
+  static async start(program = 'chromium') {
     const browser = new Browser();
     browser.profile = mkdtempSync(join(tmpdir(), 'clatter-chromium-'));
-    browser.process = spawn(program, [
+    browser.process = start(program, [
       '--headless', '--no-sandbox', '--disable-quic', '--no-first-run',
       '--disable-background-networking', '--disable-component-update', '--disable-sync',
       '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
-      '--remote-debugging-pipe', `--user-data-dir=${browser.profile}`, ...flags, 'about:blank',
-    ], {stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe']});
+      '--remote-debugging-pipe', `--user-data-dir=${browser.profile}`, 'about:blank',
+    ], ['ignore', 'ignore', 'ignore', 'pipe', 'pipe']);
     browser.answers = new Map();
-    browser.events = [];
-    browser.last = 0;
+    browser.told = [];
+    browser.sent = 0;
     browser.listen();
     const {targetInfos} = await browser.send('Target.getTargets');
     const {targetId} = targetInfos.find((target) => target.type === 'page');
@@ -69,7 +73,7 @@ export class Browser {
       for (const message of messages.map((one) => JSON.parse(one))) {
         const answer = this.answers.get(message.id);
         this.answers.delete(message.id);
-        if (!answer) this.events.push(message);
+        if (!answer) this.told.push(message);
         else if (message.error) answer.reject(new Error(JSON.stringify(message.error)));
         else answer.resolve(message.result);
       }
@@ -77,7 +81,7 @@ export class Browser {
   }
 
   send(method, params = {}) {
-    const id = ++this.last;
+    const id = ++this.sent;
     const message = {id, method, params, sessionId: this.session};
     this.process.stdio[3].write(JSON.stringify(message) + '\0');
     return new Promise((resolve, reject) => this.answers.set(id, {resolve, reject}));
@@ -95,30 +99,13 @@ export class Browser {
   async iframe() {
     const {frameTree} = await this.send('Page.getFrameTree');
     const {id} = frameTree.childFrames[0].frame;
-    return this.events.filter((event) => event.method === 'Runtime.executionContextCreated')
+    return this.told.filter((event) => event.method === 'Runtime.executionContextCreated')
         .map((event) => event.params.context).filter((context) => context.auxData.frameId === id)
         .pop().id;
   }
 
-  /// Opens an address and waits until `ready` holds in the page.
-  async open(address, ready = 'ready', seconds = 60) {
-    // A page with unsaved changes would ask before it is left.
-    await this.value('(() => { try { ready = false; } catch {} })()');
-    // Another fragment alone would not load the page again.
-    await this.send('Page.navigate', {url: 'about:blank'});
-    await this.send('Page.navigate', {url: address});
-    await this.until(ready, seconds);
-  }
-
-  /// Waits until an expression of the page is true, and returns its value.
-  async until(expression, seconds = 60) {
-    const end = Date.now() + 1000 * seconds;
-    for (;;) {
-      const value = await this.value(`(() => { try { return ${expression}; } catch { return false; } })()`);
-      if (value) return value;
-      if (Date.now() > end) throw new Error(`after ${seconds} s it does not hold: ${expression}`);
-      await sleep(50);
-    }
+  go(address) {
+    return this.send('Page.navigate', {url: address});
   }
 
   resize(width, height, scale = 1, mobile = false) {
@@ -132,6 +119,12 @@ export class Browser {
                       clickCount: 1});
   }
 
+  /// An event of fingers, each [x, y] in pixels of the page.
+  touch(type, ...points) {
+    return this.send('Input.dispatchTouchEvent',
+                     {type, touchPoints: points.map(([x, y], id) => ({x, y, id}))});
+  }
+
   /// The picture of the page as PNG.
   async picture() {
     const {data} = await this.send('Page.captureScreenshot', {format: 'png'});
@@ -142,12 +135,12 @@ export class Browser {
   /// and its processor time, {wall, processor}, in milliseconds. Where the browser does not know the
   /// processor time, it is the duration.
   async tasks(run) {
-    this.events.length = 0;
+    this.told.length = 0;
     await this.send('Tracing.start', {transferMode: 'ReportEvents', categories: 'toplevel'});
     await run();
     await this.send('Tracing.end');
-    while (!this.events.some((event) => event.method === 'Tracing.tracingComplete')) await sleep(100);
-    const events = this.events.filter((event) => event.method === 'Tracing.dataCollected')
+    while (!this.told.some((event) => event.method === 'Tracing.tracingComplete')) await sleep(100);
+    const events = this.told.filter((event) => event.method === 'Tracing.dataCollected')
         .flatMap((event) => event.params.value);
     const thread = (event) => `${event.pid}:${event.tid}`;
     const pages = events.filter((event) => event.args?.name === 'CrRendererMain').map(thread);
@@ -169,9 +162,7 @@ export class Browser {
   }
 
   async stop() {
-    await this.send('Browser.close').catch(() => {});
-    await new Promise((done) => { this.process.on('exit', done); setTimeout(done, 3000); });
-    this.process.kill('SIGKILL');
+    await this.process.end();
     rmSync(this.profile, {recursive: true, force: true, maxRetries: 5});
   }
 }
