@@ -118,7 +118,6 @@ template <int D>
 bool Measurement<D>::samples_cells() const {
   return measure_.estimator == Estimator::Snapshot && !measure_.fields.empty();
 }
-}
 
 template <int D>
 std::string Measurement<D>::save() {

@@ -54,7 +54,8 @@ TEST_CASE("Counts: samples that should have been long ago are refused, not made 
     const std::string saved = measurement.save();
     const auto resume = [&](const std::string& bytes) {
       ScheduledRun<2> resumed(scene, 1, run.simulation().save());
-      Measurement<2>(resumed.simulation(), scene.measure, ArchiveReader(bytes, "a"));
+      Measurement<2>(resumed.simulation(), scene.measure, 20.0,
+                      ArchiveReader(bytes, "a"), Averages::GoOn);
     };
     CHECK_NOTHROW(resume(saved));
     CHECK_THROWS_AS(resume(with_number(saved, 1234, 7)), UserError);
