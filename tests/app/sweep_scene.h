@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "tests/app/shell.h"
+#include "tests/support/shell.h"
 
 namespace clatter {
 

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/app/shell.h"
+#include "tests/support/shell.h"
 
 namespace clatter {
 

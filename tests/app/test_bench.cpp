@@ -12,7 +12,7 @@
 #include "app/bench/features.h"
 #include "engine/scene/scene_file.h"
 #include "tests/app/printed_columns.h"
-#include "tests/app/shell.h"
+#include "tests/support/shell.h"
 
 namespace clatter {
 

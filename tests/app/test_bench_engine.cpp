@@ -11,7 +11,7 @@
 #include "app/bench/cores.h"
 #include "app/bench/engine.h"
 #include "tests/app/printed_columns.h"
-#include "tests/app/shell.h"
+#include "tests/support/shell.h"
 
 namespace clatter {
 

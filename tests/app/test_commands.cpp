@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "app/runs/options.h"
-#include "tests/app/shell.h"
+#include "tests/support/shell.h"
 
 namespace clatter {
 

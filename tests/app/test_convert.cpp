@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/app/shell.h"
 #include "tests/app/trajectory_scenes.h"
+#include "tests/support/shell.h"
 
 namespace clatter {
 

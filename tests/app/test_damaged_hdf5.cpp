@@ -9,8 +9,8 @@
 #include "app/results/frame_reader.h"
 #include "app/results/isolated_hdf5.h"
 #include "engine/error.h"
-#include "tests/app/shell.h"
 #include "tests/app/trajectory_scenes.h"
+#include "tests/support/shell.h"
 
 namespace clatter {
 

@@ -15,8 +15,8 @@
 #include "app/results/growing_file.h"
 #include "engine/error.h"
 #include "engine/physics/random.h"
-#include "tests/app/shell.h"
-#include "tests/app/tables.h"
+#include "tests/support/shell.h"
+#include "tests/support/tables.h"
 
 namespace clatter {
 

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/readers.h"
-#include "tests/app/shell.h"
-#include "tests/app/tables.h"
+#include "tests/support/shell.h"
+#include "tests/support/tables.h"
 
 namespace clatter {
 

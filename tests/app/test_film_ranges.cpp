@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/runs/film_ranges.h"
-#include "tests/app/shell.h"
+#include "tests/support/shell.h"
 
 namespace clatter {
 

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "tests/app/film_scene.h"
-#include "tests/app/tables.h"
+#include "tests/support/tables.h"
 
 namespace clatter {
 

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/readers.h"
-#include "tests/app/shell.h"
 #include "tests/app/trajectory_scenes.h"
+#include "tests/support/shell.h"
 
 namespace clatter {
 

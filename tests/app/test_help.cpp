@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "tests/app/shell.h"
+#include "tests/support/shell.h"
 
 namespace clatter {
 

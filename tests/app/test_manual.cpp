@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "tests/app/shell.h"
+#include "tests/support/shell.h"
 
 namespace clatter {
 

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <tuple>
 
-#include "tests/app/shell.h"
+#include "tests/support/shell.h"
 
 namespace clatter {
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "tests/app/shell.h"
-#include "tests/app/tables.h"
+#include "tests/support/shell.h"
+#include "tests/support/tables.h"
 
 namespace clatter {
 

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "app/sweep/refinement.h"
-#include "tests/app/shell.h"
+#include "tests/support/shell.h"
 
 namespace clatter {
 

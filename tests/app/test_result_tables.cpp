@@ -9,9 +9,9 @@
 #include "engine/error.h"
 #include "tests/app/check_same.h"
 #include "tests/app/expected_values.h"
-#include "tests/app/shell.h"
-#include "tests/app/tables.h"
 #include "tests/app/witnessed_run.h"
+#include "tests/support/shell.h"
+#include "tests/support/tables.h"
 
 namespace clatter {
 

@@ -10,8 +10,8 @@
 #include "engine/dimension.h"
 #include "tests/app/check_same.h"
 #include "tests/app/expected_values.h"
-#include "tests/app/shell.h"
 #include "tests/app/witnessed_run.h"
+#include "tests/support/shell.h"
 
 namespace clatter {
 

@@ -8,7 +8,7 @@
 #include "app/system/exit_code.h"
 #include "engine/checkpoint/checkpoint.h"
 #include "engine/error.h"
-#include "tests/app/shell.h"
+#include "tests/support/shell.h"
 
 namespace clatter {
 

@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "app/sweep/submit.h"
-#include "tests/app/shell.h"
+#include "tests/support/shell.h"
 
 namespace clatter {
 

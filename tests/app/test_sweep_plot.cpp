@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/sweep/sweep_plot.h"
-#include "tests/app/shell.h"
+#include "tests/support/shell.h"
 
 namespace clatter {
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "render/output/image.h"
-#include "tests/app/shell.h"
+#include "tests/support/shell.h"
 
 namespace clatter {
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "tests/app/shell.h"
+#include "tests/support/shell.h"
 #include "tests/extremes/figure.h"
 
 using namespace clatter;

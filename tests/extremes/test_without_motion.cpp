@@ -6,7 +6,7 @@
 #include <string>
 
 #include "engine/dynamics/simulation.h"
-#include "tests/app/shell.h"
+#include "tests/support/shell.h"
 #include "tests/engine/support/gas.h"
 #include "tests/extremes/figure.h"
 

@@ -37,7 +37,7 @@ Vec<D> centre(const Simulation<D>& simulation, const PeriodicImages<D>& images) 
 }
 
 template <int D>
-Vec<D> momentum(const Simulation<D>& simulation) {
+Vec<D> total_momentum(const Simulation<D>& simulation) {
   Vec<D> sum = Vec<D>::Zero();
   for (const Vec<D>& velocity : simulation.state().velocities) sum += velocity;
   return sum;
@@ -53,7 +53,7 @@ TEST_CASE_TEMPLATE("Periodic images: the unwrapped centre of mass falls freely",
   const Scene scene = falling_gas<D>();
   const auto simulation = simulation_of<D>(scene, 5);
   PeriodicImages<D> images(*simulation);
-  const Vec<D> start = centre(*simulation, images), speed = momentum(*simulation);
+  const Vec<D> start = centre(*simulation, images), speed = total_momentum(*simulation);
   const Vec<D> force = 20.0 * Vec<D>(*scene.gravity);
   for (const double time : {0.0, 1.0, 20.0, 100.0}) {
     CAPTURE(time);
@@ -84,7 +84,7 @@ TEST_CASE_TEMPLATE("Periodic images: a resumed run has them, also under other la
   reader.finish();
   CHECK(read.images() == images.images());
 
-  const Vec<D> start = centre(*simulation, images), speed = momentum(*simulation);
+  const Vec<D> start = centre(*simulation, images), speed = total_momentum(*simulation);
   scene.gravity = VecX::LinSpaced(D, -0.3, 0.2);
   Simulation<D> changed(model_of<D>(scene, 6), simulation->save());
   PeriodicImages<D> handed(changed, images);

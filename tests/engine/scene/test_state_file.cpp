@@ -205,7 +205,7 @@ TEST_CASE("State file: mistakes are reported with their place and a fix") {
       {kHeader + "1,2,nan,4\n", "a.csv:2:5: \"nan\" is no finite number"},
       {kHeader + "1,2,3,-inf\n", "a.csv:2:7: \"-inf\" is no finite number"},
       {kHeader + "1,2,3,1e999\n", "a.csv:2:7: \"1e999\" is no finite number"},
-      {kHeader + "+1,2,3,4\n", "a.csv:2:1: \"+1\" is no finite number"},
+      {kHeader + "+-1,2,3,4\n", "a.csv:2:1: \"+-1\" is no finite number"},
       {kHeader + "0x1,2,3,4\n", "a.csv:2:1: \"0x1\" is no finite number"},
       {kHeader + "1,,3,4\n", "a.csv:2:3: \"\" is no finite number"},
       {kHeader + "1,2,1e16,4\n", "a.csv:2:5: vx is 1e+16; give at most 1e+15 either way"},

@@ -5,13 +5,13 @@
 #include <chrono>
 #include <thread>
 
-#include "tests/app/gui_driver.h"
+#include "tests/window/gui_driver.h"
 
 namespace clatter {
 
 using nlohmann::json;
 
-TEST_SUITE_BEGIN("window");
+TEST_SUITE_BEGIN("display");
 
 TEST_CASE("Window: a screenshot equals the screen, and its scene plays it again") {
   const GuiDriver driver("");

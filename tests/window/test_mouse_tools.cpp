@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/app/gui_driver.h"
+#include "tests/window/gui_driver.h"
 
 namespace clatter {
 
@@ -57,7 +57,7 @@ std::size_t nudges(const GuiDriver& driver) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("window");
+TEST_SUITE_BEGIN("display");
 
 TEST_CASE("Mouse tools: a held press heats again and again, and undo removes it from the run") {
   const GuiDriver driver("--set view.speed=4");

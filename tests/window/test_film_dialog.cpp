@@ -7,9 +7,9 @@
 
 #include "app/view/film_dialog.h"
 #include "render/output/movie_format.h"
-#include "tests/app/gui_driver.h"
-#include "tests/app/panel_actions.h"
 #include "tests/support/messages.h"
+#include "tests/window/gui_driver.h"
+#include "tests/window/panel_actions.h"
 
 namespace clatter {
 
@@ -218,7 +218,7 @@ TEST_CASE("Film dialog: a mistake is named, and makes no film") {
   CHECK(says(text_of(shown.driver), "will be replaced"));
 }
 
-TEST_SUITE_BEGIN("window");
+TEST_SUITE_BEGIN("display");
 
 TEST_CASE("Window: typed times and a typed name make the film") {
   const GuiDriver driver("--until 3", "1280x1840");

@@ -18,9 +18,9 @@
 #include "engine/error.h"
 #include "engine/scene/scene_file.h"
 #include "render/layers/gui_context.h"
-#include "tests/app/gui_driver.h"
-#include "tests/app/offscreen_window.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/window/gui_driver.h"
+#include "tests/window/offscreen_window.h"
 
 namespace clatter {
 
@@ -217,7 +217,7 @@ TEST_CASE("Playlist: each mistake is refused at its place") {
   }
 }
 
-TEST_SUITE_BEGIN("window");
+TEST_SUITE_BEGIN("display");
 
 TEST_CASE("Window: lecture mode has the sliders of the scene, and one drives the gas") {
   const GuiDriver driver(

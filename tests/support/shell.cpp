@@ -1,4 +1,4 @@
-#include "tests/app/shell.h"
+#include "tests/support/shell.h"
 
 #include <doctest/doctest.h>
 #include <sys/wait.h>

@@ -2,13 +2,13 @@
 
 #include <doctest/doctest.h>
 
-#include "tests/app/gui_driver.h"
+#include "tests/window/gui_driver.h"
 
 namespace clatter {
 
 using nlohmann::json;
 
-TEST_SUITE_BEGIN("window");
+TEST_SUITE_BEGIN("display");
 
 namespace {
 

@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "engine/scene/scene_file.h"
-#include "tests/app/gui_driver.h"
-#include "tests/app/offscreen_window.h"
+#include "tests/window/gui_driver.h"
+#include "tests/window/offscreen_window.h"
 
 namespace clatter {
 
@@ -62,7 +62,7 @@ TEST_CASE("Controls: a typed number beyond the range becomes its end, with its d
   CHECK(answer("tool.radius", "0.1") == "Radius: at least 0.5 a");
 }
 
-TEST_SUITE_BEGIN("window");
+TEST_SUITE_BEGIN("display");
 
 TEST_CASE("Window: dragging the restitution cools the gas, undo takes it back") {
   const GuiDriver driver("--set view.speed=20");

@@ -1,4 +1,4 @@
-#include "tests/app/panel_actions.h"
+#include "tests/window/panel_actions.h"
 
 #include <doctest/doctest.h>
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "engine/scene/scene_file.h"
-#include "tests/app/offscreen_window.h"
+#include "tests/window/offscreen_window.h"
 
 namespace clatter {
 

@@ -16,10 +16,10 @@
 #include "render/context/context.h"
 #include "render/layers/gui_context.h"
 #include "render/output/cells.h"
-#include "tests/app/offscreen_window.h"
 #include "tests/render/picture.h"
 #include "tests/support/messages.h"
 #include "tests/support/scenes.h"
+#include "tests/window/offscreen_window.h"
 
 namespace clatter {
 

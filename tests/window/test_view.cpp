@@ -8,15 +8,15 @@
 #include <regex>
 
 #include "engine/scene/scene_file.h"
-#include "tests/app/gui_driver.h"
-#include "tests/app/offscreen_window.h"
 #include "tests/render/picture.h"
+#include "tests/window/gui_driver.h"
+#include "tests/window/offscreen_window.h"
 
 namespace clatter {
 
 using nlohmann::json;
 
-TEST_SUITE_BEGIN("window");
+TEST_SUITE_BEGIN("display");
 
 TEST_CASE("Window: it is no larger than the screen") {
   const GuiDriver driver("", "1280x800", "1200x720");

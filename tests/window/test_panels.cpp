@@ -16,8 +16,8 @@
 #include "app/view/plot.h"
 #include "app/view/top_bar.h"
 #include "engine/scene/scene_file.h"
-#include "tests/app/panel_actions.h"
 #include "tests/support/messages.h"
+#include "tests/window/panel_actions.h"
 
 namespace clatter {
 

@@ -1,4 +1,4 @@
-#include "tests/app/gui_driver.h"
+#include "tests/window/gui_driver.h"
 
 #include <doctest/doctest.h>
 

@@ -8,7 +8,7 @@
 
 #include "app/view/session.h"
 #include "engine/scene/scene_file.h"
-#include "tests/app/logged_widgets.h"
+#include "tests/window/logged_widgets.h"
 
 namespace clatter {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/scene/scene_file.h"
-#include "tests/app/gui_driver.h"
+#include "tests/window/gui_driver.h"
 
 namespace clatter {
 
@@ -132,7 +132,7 @@ std::string grey(const Shell& shell, const std::string& file) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("window");
+TEST_SUITE_BEGIN("display");
 
 TEST_CASE("Window: spheres play, halt, and step to a collision that marks its pair") {
   const Scenes scenes;

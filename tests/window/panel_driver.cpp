@@ -1,4 +1,4 @@
-#include "tests/app/panel_driver.h"
+#include "tests/window/panel_driver.h"
 
 #include <doctest/doctest.h>
 #include <imgui.h>
@@ -8,7 +8,7 @@
 
 #include "app/view/style.h"
 #include "render/layers/fonts.h"
-#include "tests/app/logged_widgets.h"
+#include "tests/window/logged_widgets.h"
 
 namespace clatter {
 

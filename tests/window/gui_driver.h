@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/app/shell.h"
+#include "tests/support/shell.h"
 
 namespace clatter {
 

@@ -8,13 +8,13 @@
 #include <sstream>
 #include <thread>
 
-#include "tests/app/gui_driver.h"
+#include "tests/window/gui_driver.h"
 
 namespace clatter {
 
 using nlohmann::json;
 
-TEST_SUITE_BEGIN("window");
+TEST_SUITE_BEGIN("display");
 
 TEST_CASE("Window: a scene of the gallery is found by its name") {
   const GuiDriver driver("");

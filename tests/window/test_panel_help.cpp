@@ -7,8 +7,8 @@
 #include "app/view/panels.h"
 #include "app/view/top_bar.h"
 #include "app/view/unsaved_question.h"
-#include "tests/app/panel_actions.h"
 #include "tests/support/messages.h"
+#include "tests/window/panel_actions.h"
 
 namespace clatter {
 

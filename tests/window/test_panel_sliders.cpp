@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tests/app/panel_actions.h"
 #include "tests/support/messages.h"
+#include "tests/window/panel_actions.h"
 
 namespace clatter {
 

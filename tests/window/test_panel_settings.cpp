@@ -9,8 +9,8 @@
 
 #include "engine/scene/scene_file.h"
 #include "render/colour_range.h"
-#include "tests/app/panel_actions.h"
 #include "tests/support/messages.h"
+#include "tests/window/panel_actions.h"
 
 namespace clatter {
 

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "tests/app/gui_driver.h"
+#include "tests/window/gui_driver.h"
 
 namespace clatter {
 
@@ -35,7 +35,7 @@ json status_of(const json& status, std::size_t gas) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("window");
+TEST_SUITE_BEGIN("display");
 
 TEST_CASE("Compare window: a changed law of a copy changes the copy alone, and both are saved") {
   const GuiDriver driver("--set view.speed=5");

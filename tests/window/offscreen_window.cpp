@@ -1,4 +1,4 @@
-#include "tests/app/offscreen_window.h"
+#include "tests/window/offscreen_window.h"
 
 #include <doctest/doctest.h>
 #include <imgui.h>
@@ -8,10 +8,10 @@
 #include <thread>
 
 #include "app/view/gui_keys.h"
-#include "tests/app/logged_widgets.h"
 #include "tests/render/picture.h"
 #include "tests/support/drawn_text.h"
 #include "tests/support/messages.h"
+#include "tests/window/logged_widgets.h"
 
 namespace clatter {
 

@@ -1,6 +1,6 @@
 // Pictures of the window's panels, kept in assets/golden. They hold places, shapes and colours. The
 // words have tests of their own. Where a change of the looks is meant,
-//   CLATTER_WRITE_GOLDEN=1 build/release/tests/app_tests -tc='Golden window*'
+//   CLATTER_WRITE_GOLDEN=1 build/release/tests/window_tests -tc='Golden window*'
 // draws them again; look at each before it is kept.
 
 #define GLFW_INCLUDE_NONE
@@ -9,9 +9,9 @@
 #include <imgui.h>
 
 #include "engine/scene/scene_file.h"
-#include "tests/app/offscreen_window.h"
 #include "tests/support/golden_picture.h"
 #include "tests/support/messages.h"
+#include "tests/window/offscreen_window.h"
 
 namespace clatter {
 

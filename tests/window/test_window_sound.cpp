@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/app/gui_driver.h"
-#include "tests/app/tables.h"
+#include "tests/support/tables.h"
+#include "tests/window/gui_driver.h"
 
 namespace clatter {
 
@@ -75,7 +75,7 @@ std::vector<long> onsets_in(const std::vector<StereoSample>& samples) {
 
 }  // namespace
 
-TEST_SUITE_BEGIN("window");
+TEST_SUITE_BEGIN("display");
 
 TEST_CASE("Window sound: the clicks are those of the run, at its speed") {
   constexpr double kSpeed = 0.3;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
-#include "tests/app/panel_driver.h"
+#include "tests/window/panel_driver.h"
 
 // Scenes and actions of the tests of panels.
 

@@ -10,8 +10,8 @@
 
 #include "engine/publish/watched_run.h"
 #include "engine/scene/scene_file.h"
-#include "tests/app/offscreen_window.h"
 #include "tests/support/messages.h"
+#include "tests/window/offscreen_window.h"
 
 namespace clatter {
 
