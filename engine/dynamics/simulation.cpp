@@ -339,12 +339,13 @@ bool Simulation<D>::run_until(double time, std::uint64_t collisions, std::uint64
   if (!prepare(stop_request)) return false;
   if (std::exchange(way_is_open_, false)) choose_way();
   while (!stop_request.made()) {
-    const double end = clock_.relative(time);
-    Timer* timer = due_timer(end);
-    double stop = timer ? clock_.relative(timer->times.exactly(timer->count)) : end;
-    const double kick_time = next_kick();
-    const bool kicks = kick_time < kNever && kick_time <= stop;
-    if (kicks) stop = kick_time;
+    Timer* timer = due_timer(time);
+    const bool kicks = kick_is_due(timer ? timer->next() : time);
+    double stop = clock_.relative(time);
+    if (kicks || timer) {
+      const double due = kicks ? next_kick() : clock_.relative(timer->times.exactly(timer->count));
+      stop = std::min(std::max(due, base_time()), stop);
+    }
     if (in_tiles_ && advance_window(stop, collisions, steps, stop_request)) continue;
     const double since = base_time();
     const std::uint64_t before = counts().collisions();
@@ -421,22 +422,30 @@ bool Simulation<D>::is_overdue(double start, double interval, std::uint64_t done
   return !(RegularTimes(start, interval).of(done) >= time() * (1.0 - kLate));
 }
 
+// Times that are equal as doubles are at once. So an interval of 0.1 is due three times until 0.3,
+// however the digits beyond double precision compare.
 template <int D>
 typename Simulation<D>::Timer* Simulation<D>::due_timer(double stop) {
   Timer* due = nullptr;
   for (Timer& timer : timers_) {
     if (timer.times.interval() == 0.0 && timer.count > 0) continue;
-    const double time = clock_.relative(timer.times.exactly(timer.count));
-    if (time > stop || (due && time == stop)) continue;
-    stop = time;
+    if (timer.next() > stop || (due && timer.next() == stop)) continue;
+    stop = timer.next();
     due = &timer;
   }
   return due;
 }
 
 template <int D>
+bool Simulation<D>::kick_is_due(double stop) const {
+  return model_.bulk_drive && kick_times_.of(kicks_since_origin_ + 1) <= stop;
+}
+
+template <int D>
 void Simulation<D>::fire(Timer& timer) {
-  timer.action(timer.times.of(timer.count++));
+  const double time = timer.next();
+  ++timer.count;
+  timer.action(time);
 }
 
 template <int D>

@@ -133,6 +133,8 @@ class Simulation {
     RegularTimes times;
     std::uint64_t count;  // times it has fired
     std::function<void(double)> action;
+
+    double next() const { return times.of(count); }
   };
 
   struct Preparation {
@@ -142,6 +144,7 @@ class Simulation {
 
   Timer* due_timer(double stop);
   void fire(Timer& timer);
+  bool kick_is_due(double stop) const;
   double next_kick() const;
   void move_base();
   bool compresses() const;

@@ -67,6 +67,33 @@ TEST_CASE("Timers: all fire in the order of time, then in the order of registrat
   CHECK(log == expected);
 }
 
+// Multiples of decimal intervals, whose digits beyond double precision are above or below those of
+// the decimal number. The kick at 0.7 belongs to the burn-in that ends there.
+TEST_CASE("Timers: runs until a decimal time include its sample and its kick") {
+  struct Case {
+    double interval, until;
+    std::uint64_t count;
+  };
+  for (const auto& [interval, until, count] :
+       {Case{0.1, 0.3, 3}, Case{0.1, 0.7, 7}, Case{0.1, 12.6, 126}, Case{0.2, 12.6, 63},
+        Case{0.6, 6.6, 11}, Case{0.1, 100.3, 1003}}) {
+    CAPTURE(interval);
+    CAPTURE(until);
+    const Model<2> model = kicked(driven_box(), interval, 0.1);
+    Simulation<2> simulation(model, random_gas(model, 20, 113));
+    std::uint64_t samples = 0;
+    std::vector<std::uint64_t> kicks_before_end;
+    simulation.every(0.0, interval, [&](double) { ++samples; });
+    simulation.every(until, 0.0,
+                     [&](double) { kicks_before_end.push_back(simulation.counts().kicks); });
+    simulation.run_until(until);
+    CHECK(simulation.counts().kicks == count);
+    CHECK(samples == count + 1);
+    CHECK(kicks_before_end == std::vector<std::uint64_t>{count});
+    CHECK(simulation.time() == until);
+  }
+}
+
 TEST_CASE("Timers: physical events of the same time come first") {
   State<2> start;
   start.positions = {{2.0, 2.0}, {7.0, 2.0}};
