@@ -84,9 +84,16 @@ TEST_CASE("Film job: interrupted and killed tasks continue, and the film is the 
     return "setsid " + task("film.mp4", 1) + " & pid=$!\n" +
            await("film.mp4.slurm/000000.mp4.part/" + piece);
   };
-  CHECK(shell.run(until_piece("000060.mp4") + "kill -TERM $pid; wait $pid").code == 130);
+  const Outcome interrupted = shell.run(until_piece("000060.mp4") + "kill -TERM $pid; wait $pid");
+  CAPTURE(interrupted.err);
+  CHECK(interrupted.code == 130);
   CHECK(std::filesystem::exists(shell.path("film.mp4.slurm/000000.checkpoint")));
-  CHECK(shell.run(until_piece("000120.mp4") + "kill -9 -$pid; wait $pid").code == 128 + 9);
+  // The killed programs end, and with them the lock of the film.
+  CHECK(shell
+            .run(until_piece("000120.mp4") +
+                 "kill -9 -$pid; wait $pid; code=$?\n"
+                 "while kill -0 -$pid 2>/dev/null; do sleep 0.02; done; exit $code")
+            .code == 128 + 9);
   CHECK_FALSE(std::filesystem::exists(shell.path("film.mp4")));
   // A second submission may have other limits.
   CHECK(submit(shell, "film.mp4", "--slurm 1 --time 1:00:00").code == 0);
