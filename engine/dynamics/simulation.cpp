@@ -200,8 +200,8 @@ template <int D>
 void Simulation<D>::use_threads(int threads) {
   if (!runs_in_tiles(D, particles().size(), threads)) return;
   const auto count = static_cast<double>(particles().size());
-  const double fraction = count * packing_fraction(D, model_.diameter) / model_.box.prod();
-  use_threads(threads, tile_sizes(particles().size(), fraction, threads));
+  const double density = count * std::pow(model_.diameter, D) / model_.box.prod();
+  use_threads(threads, tile_sizes(particles().size(), packing_fraction(D, density), threads));
   watched_in_tiles_ = watched_runs_in_tiles(threads);
 }
 
@@ -341,10 +341,10 @@ bool Simulation<D>::run_until(double time, std::uint64_t collisions, std::uint64
   while (!stop_request.made()) {
     Timer* timer = due_timer(time);
     const bool kicks = kick_is_due(timer ? timer->next() : time);
-    double stop = clock_.relative(time);
-    if (kicks || timer) {
-      const double due = kicks ? next_kick() : clock_.relative(timer->times.exactly(timer->count));
-      stop = std::min(std::max(due, base_time()), stop);
+    double stop = next_kick();
+    if (!kicks) {
+      stop = timer ? clock_.relative(timer->times.exactly(timer->count)) : clock_.relative(time);
+      stop = std::max(stop, base_time());  // the digits of a kick at once with it may be later
     }
     if (in_tiles_ && advance_window(stop, collisions, steps, stop_request)) continue;
     const double since = base_time();
@@ -422,8 +422,9 @@ bool Simulation<D>::is_overdue(double start, double interval, std::uint64_t done
   return !(RegularTimes(start, interval).of(done) >= time() * (1.0 - kLate));
 }
 
-// Times that are equal as doubles are at once. So an interval of 0.1 is due three times until 0.3,
-// however the digits beyond double precision compare.
+// Times that are equal as doubles are at once: an interval of 0.1 is due three times until 0.3,
+// however the digits beyond double precision compare. Kicks keep all digits, so that they are
+// independent of timers and of ends of runs.
 template <int D>
 typename Simulation<D>::Timer* Simulation<D>::due_timer(double stop) {
   Timer* due = nullptr;
