@@ -89,7 +89,7 @@ bool ChildProcess::take_end(int options) {
 // Whether it must be given up: it has read nothing since `last_read`. The time counts from the stop
 // request.
 bool ChildProcess::hangs(Clock::time_point& last_read) {
-  constexpr std::chrono::seconds kPatience{1};
+  constexpr std::chrono::seconds kPatience{3};  // an encoder starts slowly on a busy machine
   const Clock::time_point now = Clock::now();
   if (!stop_.made()) last_read = now;
   hung_ = now - last_read > kPatience;
