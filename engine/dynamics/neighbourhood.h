@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -151,7 +152,8 @@ class Neighbourhood {
       const double narrowest = NeighbourLists<D>::kMinSide * model.diameter;
       if (model.periodic(axis) && model.box[axis] < narrowest) return false;
     }
-    return D == 3 && particles * packing_fraction(D, model.diameter) > kDense * model.box.prod();
+    const double density = particles * std::pow(model.diameter, D) / model.box.prod();
+    return D == 3 && packing_fraction(D, density) > kDense;
   }
   bool by_particle() const { return D == 3 && lists_.has_value(); }
 

@@ -33,17 +33,18 @@ struct CollisionSums {
 
 // Kinetic energy of a particle before a collision.
 template <int D>
-double energy_before(const ParticleChange<D>& change, double inertia) {
-  return 0.5 * change.velocity.squaredNorm() + 0.125 * inertia * change.spin.squaredNorm();
+double energy_before(const ParticleChange<D>& change) {
+  return 0.5 *
+         (change.velocity.squaredNorm() + change.moment_of_inertia * change.spin.squaredNorm());
 }
 
 // Energy that a collision dissipates. A difference by rounding is 0.
 template <int D>
-double dissipated(const PairCollision<D>& collision, const Model<D>& model) {
+double dissipated(const PairCollision<D>& collision) {
   constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
   const auto& [first, second] = collision.particles;
   const double loss = -(first.energy() + second.energy());
-  const double energy = energy_before(first, model.inertia) + energy_before(second, model.inertia);
+  const double energy = energy_before(first) + energy_before(second);
   return collision.elasticised || loss < kRounding * energy ? 0.0 : loss;
 }
 
@@ -101,7 +102,7 @@ void CollisionStatistics<D>::on_collision(const PairCollision<D>& collision) {
   const double tangential_speed = (relative - relative.dot(normal) * normal).norm();
   const double speed = relative.norm();
   const double impact_parameter = speed > 0.0 ? tangential_speed / speed : 0.0;
-  const double loss = dissipated(collision, simulation_.model());
+  const double loss = dissipated(collision);
   std::vector<double>& sums = sums_.values;
   const auto bin =
       static_cast<std::size_t>(impact_parameter * double{CollisionSums::kImpactBinCount});

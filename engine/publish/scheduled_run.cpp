@@ -282,6 +282,7 @@ void ScheduledRun<D>::return_to(const Scene& scene, double changed_until, const 
     shown_->set_rotations(rotations);
   }
   simulation_ = std::move(next);
+  simulation_->use_threads(threads_);
   schedule_ = std::move(schedule);
 }
 
