@@ -269,7 +269,7 @@ class DataFile {
       lines_.refuse("the section Velocities is missing",
                     "give velocities, or draw them with --temperature");
     }
-    add_sorted(frame, table, std::move(rows_), path_);
+    add_sorted(frame, table, std::move(rows_), AllZero::NoNumbers, path_);
     frame.dimension = dimension_of(frame, choice_, path_);
     move_corner(frame, low_);
     return frame;
