@@ -22,10 +22,16 @@ inline std::optional<double> real_number(std::string_view text) {
   return whole_number<double>(text);
 }
 
+/// The number in a text, which may have either sign; absent if the text is anything else.
+template <class T>
+std::optional<T> signed_number(std::string_view text) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  return whole_number<T>(text);
+}
+
 /// The finite number in a text, which may have a sign; absent if the text is anything else.
 inline std::optional<double> finite_number(std::string_view text) {
-  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-  const std::optional<double> number = real_number(text);
+  const std::optional<double> number = signed_number<double>(text);
   return number && std::isfinite(*number) ? number : std::nullopt;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "app/runs/accuracy_goal.h"
+#include "app/runs/film_limits.h"
 #include "engine/error.h"
 #include "engine/whole_number.h"
 
@@ -83,19 +84,18 @@ CLI::Validator seed_number() {
 }
 
 Size parse_size(const std::string& text, Size least) {
-  constexpr int kMax = 16384;
   const std::size_t cross = text.find('x');
   if (cross != std::string::npos) {
     const auto width = whole_number<int>(std::string_view(text).substr(0, cross));
     const auto height = whole_number<int>(std::string_view(text).substr(cross + 1));
-    if (width && height && *width >= least.width && *height >= least.height && *width <= kMax &&
-        *height <= kMax) {
+    if (width && height && *width >= least.width && *height >= least.height &&
+        *width <= kLongestSide && *height <= kLongestSide) {
       return {*width, *height};
     }
   }
   throw UserError({"--size", 0, 0}, "'" + text + "' is not a valid size",
                   "write WIDTHxHEIGHT, from " + size_text(least) + " to " +
-                      size_text({kMax, kMax}) + ", for example 1280x720");
+                      size_text({kLongestSide, kLongestSide}) + ", for example 1280x720");
 }
 
 }  // namespace clatter

@@ -11,6 +11,7 @@
 #include "app/runs/compared_scenes.h"
 #include "app/runs/film.h"
 #include "app/runs/film_job.h"
+#include "app/runs/film_limits.h"
 #include "app/runs/picture_scene.h"
 #include "app/runs/run.h"
 #include "app/system/exit_code.h"
@@ -245,7 +246,7 @@ void add_render_command(CLI::App& program, int& exit_code) {
       ->add_option(
           "--fps", options->fps,
           "Frames per second of film, at most 50 in a GIF. Default: the rate of --quality.")
-      ->check(number_between(1.0, 1000.0));
+      ->check(number_between(1.0, kMostFps));
   command
       ->add_option("--from", options->from,
                    "Simulation time of the first frame, or of the one picture. Default: 0, or the "
@@ -266,7 +267,7 @@ void add_render_command(CLI::App& program, int& exit_code) {
           "--supersample", options->supersample,
           "Samples per pixel, along each axis. They are averaged in linear light. Default: "
           "1.")
-      ->check(whole_number_between(1, 4));
+      ->check(whole_number_between(1, kMostSamples));
   command
       ->add_option("--shutter", options->shutter,
                    "Motion blur. The value is the open share of the time between two "

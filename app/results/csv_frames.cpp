@@ -20,9 +20,10 @@ class CsvFrames {
   CsvFrames(const std::filesystem::path& path, const FrameChoice& choice)
       : path_(path), choice_(choice), lines_(path) {
     if (!next_line()) lines_.refuse("the file has no header line", "name the columns in a header");
-    table_ = ParticleTable(columns());
+    const LineWords names = cells();
+    table_ = ParticleTable(columns(), {}, {names.begin(), names.end()});
     table_.require_state(lines_, choice_, "give the columns vx and vy");
-    if (is_spatial()) table_.require_spheres(lines_);
+    if (is_spatial()) table_.require_spheres(lines_, lines_.number());
     if (choice_.dimension && *choice_.dimension != (is_spatial() ? 3 : 2)) {
       lines_.refuse(std::string("these are columns of ") + (is_spatial() ? "spheres" : "disks"),
                     "omit --dimensions");
@@ -53,7 +54,7 @@ class CsvFrames {
                         std::to_string(particles_),
                     "give all frames the same particles");
     }
-    add_sorted(frame, table_, std::move(particles), path_);
+    add_sorted(frame, table_, std::move(particles), AllZero::Numbers, path_);
     return frame;
   }
 
@@ -97,7 +98,7 @@ class CsvFrames {
     for (const std::string_view name : names) {
       const auto column = kColumns.find(name);
       if (column == kColumns.end()) {
-        lines_.refuse("unknown column " + in_quotes(name.substr(0, 40)),
+        lines_.refuse("unknown column " + quoted_start(name),
                       "give the columns of a start state or of a trajectory, between commas");
       }
       if (spatial ? name == "omega" : name.starts_with("omega_")) {

@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -32,24 +35,72 @@ const std::map<std::string_view, std::vector<int>> kStyles = {
     {"bpm/sphere", {kId, kWhole, kType, kDiameter, kDensity, kX, kX + 1, kX + 2}}};
 
 // Whether the particles depend on a section.
-bool is_read(std::string_view section) {
+bool is_read(const std::string& section) {
   return section == "Atoms" || section == "Velocities" || section == "Masses" ||
          section == "Atom Type Labels";
 }
 
-// Whether a section belongs to molecules, to other bodies or to force fields.
-bool is_skipped(std::string_view section) {
-  static const std::set<std::string_view> kNames = {
-      "Ellipsoids", "Lines", "Triangles", "Bodies", "Bonds", "Angles", "Dihedrals", "Impropers"};
-  return kNames.contains(section) || section.ends_with(" Coeffs") ||
-         (section.ends_with(" Type Labels") && !is_read(section));
+// The keyword in the header that counts the rows of a skipped section: one of molecules, of other
+// bodies or of force fields. Empty: the section is no such one.
+std::string_view count_of(const std::string& section) {
+  static const std::map<std::string_view, std::string_view> kCounts = {
+      {"Bonds", "bonds"},
+      {"Angles", "angles"},
+      {"Dihedrals", "dihedrals"},
+      {"Impropers", "impropers"},
+      {"Ellipsoids", "ellipsoids"},
+      {"Lines", "lines"},
+      {"Triangles", "triangles"},
+      {"Bodies", "bodies"},
+      {"Pair Coeffs", "atom types"},
+      {"PairIJ Coeffs", "atom types"},
+      {"Bond Coeffs", "bond types"},
+      {"Angle Coeffs", "angle types"},
+      {"BondBond Coeffs", "angle types"},
+      {"BondAngle Coeffs", "angle types"},
+      {"Dihedral Coeffs", "dihedral types"},
+      {"MiddleBondTorsion Coeffs", "dihedral types"},
+      {"EndBondTorsion Coeffs", "dihedral types"},
+      {"AngleTorsion Coeffs", "dihedral types"},
+      {"AngleAngleTorsion Coeffs", "dihedral types"},
+      {"BondBond13 Coeffs", "dihedral types"},
+      {"Improper Coeffs", "improper types"},
+      {"AngleAngle Coeffs", "improper types"},
+      {"Bond Type Labels", "bond types"},
+      {"Angle Type Labels", "angle types"},
+      {"Dihedral Type Labels", "dihedral types"},
+      {"Improper Type Labels", "improper types"}};
+  const auto found = kCounts.find(section);
+  return found == kCounts.end() ? "" : found->second;
 }
 
-// Whether a keyword of the header counts what these sections have.
-bool is_other_count(std::string_view keyword) {
-  static const std::set<std::string_view> kWords = {
-      "bonds", "angles", "dihedrals", "impropers", "ellipsoids", "lines", "triangles", "bodies"};
-  return kWords.contains(keyword) || keyword.ends_with(" types") || keyword.starts_with("extra ");
+// Whether the rows of a skipped section have numbers only, apart from labels of their types.
+bool has_numbers(const std::string& section) {
+  return !section.ends_with(" Coeffs") && !section.ends_with(" Labels");
+}
+
+// Whether a keyword of the header counts things.
+bool is_count(std::string_view keyword) {
+  static const std::set<std::string_view> kWords = {"atoms",
+                                                    "bonds",
+                                                    "angles",
+                                                    "dihedrals",
+                                                    "impropers",
+                                                    "ellipsoids",
+                                                    "lines",
+                                                    "triangles",
+                                                    "bodies",
+                                                    "atom types",
+                                                    "bond types",
+                                                    "angle types",
+                                                    "dihedral types",
+                                                    "improper types",
+                                                    "extra bond per atom",
+                                                    "extra angle per atom",
+                                                    "extra dihedral per atom",
+                                                    "extra improper per atom",
+                                                    "extra special per atom"};
+  return kWords.contains(keyword);
 }
 
 std::string joined(const LineWords& words, std::size_t begin) {
@@ -71,33 +122,38 @@ class DataFile {
     while (more_) {
       const std::string section = joined(content_, 0);
       const std::string style = comment_;
-      if (!is_read(section) && !is_skipped(section)) {
-        lines_.refuse("unknown section " + in_quotes(section.substr(0, 40)),
+      if (!is_read(section) && count_of(section).empty()) {
+        lines_.refuse("unknown section " + quoted_start(section),
                       "give the sections of a data file of LAMMPS");
       }
-      lines_.require_next();
+      if (!lines_.next()) refuse_end();
       if (!lines_.words().empty()) {
         lines_.refuse("this line is not blank",
                       "leave the line behind the name of a section blank");
       }
-      if (section == "Atoms") {
-        read_atoms(style);
-      } else if (section == "Velocities") {
-        read_velocities();
-      } else if (section == "Masses") {
-        read_types(masses_);
-      } else if (section == "Atom Type Labels") {
-        read_types(labels_);
-      } else {
-        skip_section();
-        continue;
-      }
+      read_section(section, style);
       more_ = next_line();
     }
     return frame();
   }
 
  private:
+  void read_section(const std::string& section, const std::string& style) {
+    if (section == "Atoms") {
+      read_atoms(style);
+    } else if (section == "Velocities") {
+      read_velocities();
+    } else if (section == "Masses") {
+      read_masses();
+    } else if (section == "Atom Type Labels") {
+      read_labels();
+    } else if (section == "Bodies") {
+      skip_bodies();
+    } else {
+      skip_section(section);
+    }
+  }
+
   // Moves to the next line with content, which it separates from the comment; false at the end.
   bool next_line() {
     while (lines_.next()) {
@@ -110,7 +166,10 @@ class DataFile {
     return false;
   }
   void require_line() {
-    if (!next_line()) lines_.refuse_end();
+    if (!next_line()) refuse_end();
+  }
+  [[noreturn]] void refuse_end() const {
+    lines_.refuse("the file ends within a section", "give a complete file");
   }
 
   // Reads lines of values and a keyword, up to the first line without values.
@@ -137,56 +196,122 @@ class DataFile {
     };
     if (const auto bounds = kBounds.find(keyword); bounds != kBounds.end()) {
       require(2);
+      bound_lines_[bounds->second] = lines_.number();
       low_[bounds->second] = values[0];
       high_[bounds->second] = values[1];
     } else if (keyword == "xy xz yz") {
       require(3);
       tilts_ = values;
       tilt_line_ = lines_.number();
-    } else if (keyword == "atoms" || keyword == "atom types" || is_other_count(keyword)) {
+    } else if (is_count(keyword)) {
       require(1);
-      if (keyword == "atoms") atoms_ = lines_.count(content_.front());
-      if (keyword == "atom types") types_ = lines_.count(content_.front());
+      counts_[keyword] = keyword == "atoms" ? lines_.count(content_.front())
+                                            : number_of(content_.front(), keyword);
     } else {
-      lines_.refuse("unknown line " + in_quotes(lines_.text().substr(0, 40)) + " in the header",
+      lines_.refuse("unknown line " + quoted_start(lines_.text()) + " in the header",
                     "give a data file of LAMMPS with xlo xhi, ylo yhi and zlo zhi");
     }
   }
 
-  void skip_section() {
-    while ((more_ = next_line())) {
+  std::size_t number_of(std::string_view word, const std::string& things) const {
+    if (const auto number = whole_number<std::uint32_t>(word)) return *number;
+    lines_.refuse(quoted_start(word) + " is no number of " + things, "give a whole number");
+  }
+
+  // The number of things in the header; 0: the header does not have it.
+  std::size_t count(std::string_view things) const {
+    const auto found = counts_.find(things);
+    return found == counts_.end() ? 0 : found->second;
+  }
+
+  void skip_section(const std::string& section) {
+    std::size_t rows = count(count_of(section));
+    if (section == "PairIJ Coeffs") rows = rows * (rows + 1) / 2;
+    for (std::size_t k = 0; k < rows; ++k) {
+      require_line();
       const std::string name = joined(content_, 0);
-      if (is_read(name) || is_skipped(name)) return;
+      if (content_.size() < 2 || is_read(name) || !count_of(name).empty()) {
+        lines_.refuse("this line is no row of the section " + section,
+                      "give " + counted(rows, "row"));
+      }
+      if (has_numbers(section)) require_numbers(section);
+    }
+  }
+
+  // Throws unless the present line has numbers, apart from a label of its type.
+  void require_numbers(const std::string& section) const {
+    for (std::size_t k = 0; k < content_.size(); ++k) {
+      if (k == 1 || lines_.number_in(content_[k])) continue;
+      lines_.refuse(quoted_start(content_[k]) + " is no number",
+                    "give the rows of the section " + section);
+    }
+  }
+
+  // A body has a line with its number and two numbers of values, which are in the next lines.
+  void skip_bodies() {
+    for (std::size_t k = 0; k < count("bodies"); ++k) {
+      require_line();
+      if (content_.size() != 4) lines_.refuse("this line has not four words", "give a body");
+      std::size_t rest = number_of(content_[2], "values") + number_of(content_[3], "values");
+      while (rest > 0) {
+        require_line();
+        if (content_.size() > rest) lines_.refuse("a body has too many values", "remove some");
+        for (const std::string_view word : content_) lines_.real(word);
+        rest -= content_.size();
+      }
     }
   }
 
   // The number of an atom type, which may be given by its label.
-  std::string type_of(std::string_view word) const {
-    for (const auto& [number, label] : labels_) {
-      if (label == word) return number;
+  std::size_t type_of(std::string_view word) const {
+    if (const auto label = labels_.find(std::string(word)); label != labels_.end()) {
+      return label->second;
     }
-    const auto number = whole_number<std::size_t>(word);
-    if (number && *number >= 1 && *number <= types_) return std::string(word);
-    lines_.refuse(in_quotes(word.substr(0, 40)) + " is no atom type",
-                  "give a number from 1 to " + std::to_string(types_));
+    return numbered_type(word);
   }
 
-  // Reads a line for each atom type: its number and a word.
-  void read_types(std::map<std::string, std::string>& words) {
-    for (std::size_t k = 0; k < types_; ++k) {
-      require_line();
-      if (content_.size() != 2) lines_.refuse("this line has not two words", "give type and value");
-      if (&words == &masses_) lines_.real(content_[1]);
-      if (!words.emplace(type_of(content_[0]), content_[1]).second) {
+  std::size_t numbered_type(std::string_view word) const {
+    const std::size_t types = count("atom types");
+    const auto number = whole_number<std::size_t>(word);
+    if (number && *number >= 1 && *number <= types) return *number;
+    if (types == 0) {
+      lines_.refuse("the header does not say the number of atom types",
+                    "write, say, \"1 atom types\" in the header");
+    }
+    lines_.refuse(quoted_start(word) + " is no atom type",
+                  "give a number from 1 to " + std::to_string(types));
+  }
+
+  // Reads a line of an atom type and its value.
+  void require_pair() {
+    require_line();
+    if (content_.size() != 2) lines_.refuse("this line has not two words", "give type and value");
+  }
+
+  void read_masses() {
+    for (std::size_t k = 0; k < count("atom types"); ++k) {
+      require_pair();
+      if (!masses_.emplace(type_of(content_[0]), lines_.real(content_[1])).second) {
         lines_.refuse("the atom type occurs twice", "give each type once");
       }
     }
   }
 
+  void read_labels() {
+    std::set<std::size_t> types;
+    for (std::size_t k = 0; k < count("atom types"); ++k) {
+      require_pair();
+      const std::size_t type = numbered_type(content_[0]);
+      if (!types.insert(type).second || !labels_.emplace(content_[1], type).second) {
+        lines_.refuse("the atom type occurs twice", "give each type one label");
+      }
+    }
+  }
+
   void read_atoms(const std::string& style) {
-    for (std::size_t i = 0; i < atoms_; ++i) {
+    for (std::size_t i = 0; i < count("atoms"); ++i) {
       require_line();
-      if (i == 0) columns_ = columns_of(style);
+      if (i == 0) set_columns(columns_of(style));
       read_atom();
     }
   }
@@ -198,9 +323,8 @@ class DataFile {
     if (known == kStyles.end()) {
       std::string names;
       for (const auto& [name, ignored] : kStyles) names += ' ' + std::string(name);
-      lines_.refuse(style.empty()
-                        ? "the atom style is missing"
-                        : "the atom style " + in_quotes(style.substr(0, 40)) + " is not read",
+      lines_.refuse(style.empty() ? "the atom style is missing"
+                                  : "the atom style " + quoted_start(style) + " is not read",
                     "write one behind the section, as in \"Atoms # sphere\":" + names);
     }
     std::vector<int> columns = known->second;
@@ -209,14 +333,23 @@ class DataFile {
     return columns;
   }
 
-  void read_atom() {
-    std::vector<int> columns = columns_;
+  // Types and densities are read apart from the table.
+  void set_columns(const std::vector<int>& columns) {
+    columns_ = columns;
+    std::vector<int> others = columns;
     std::ranges::replace_if(
-        columns, [](int column) { return column > kReal; }, +kIgnored);
-    ParticleTable::Row row = ParticleTable(columns).row(lines_, content_);
-    std::string type;
+        others, [](int column) { return column > kReal; }, +kIgnored);
+    table_ = ParticleTable(others);
+  }
+
+  void read_atom() {
+    ParticleTable::Row row = table_.row(lines_, content_);
     for (std::size_t k = 0; k < columns_.size(); ++k) {
-      if (columns_[k] == kType) type = type_of(content_[k]);
+      const bool is_image = columns_[k] >= kImage && columns_[k] < kImage + 3;
+      if (is_image && !whole_number<long long>(content_[k])) {
+        lines_.refuse(quoted_start(content_[k]) + " is no periodic image", "give whole numbers");
+      }
+      if (columns_[k] == kType) types_of_rows_.push_back(type_of(content_[k]));
       if (columns_[k] != kDensity) continue;
       const double diameter = row[kDiameter];
       row[kMass] =
@@ -224,7 +357,6 @@ class DataFile {
     }
     place_of_.emplace(row[kId], rows_.size());
     rows_.push_back({row, lines_.number()});
-    types_of_rows_.push_back(type);
   }
 
   void read_velocities() {
@@ -233,7 +365,7 @@ class DataFile {
     for (int axis = 0; has_diameters() && axis < 3; ++axis) columns.push_back(kOmega + axis);
     const ParticleTable table(columns);
     std::set<double> seen;
-    for (std::size_t i = 0; i < atoms_; ++i) {
+    for (std::size_t i = 0; i < count("atoms"); ++i) {
       require_line();
       const ParticleTable::Row row = table.row(lines_, content_);
       const auto place = place_of_.find(row[kId]);
@@ -251,11 +383,12 @@ class DataFile {
   bool has_diameters() const { return std::ranges::find(columns_, +kDiameter) != columns_.end(); }
 
   ParticleFrame frame() {
-    if (columns_.empty() && atoms_ > 0) {
+    if (columns_.empty() && count("atoms") > 0) {
       lines_.refuse("the section Atoms is missing", "give a data file with atoms");
     }
     ParticleFrame frame;
     frame.box.emplace();
+    frame.box->lines = bound_lines_;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       frame.box->lengths[axis] = high_[axis] - low_[axis];
       frame.box->periodic[axis] = true;  // the default of LAMMPS; the file does not say it
@@ -269,7 +402,7 @@ class DataFile {
       lines_.refuse("the section Velocities is missing",
                     "give velocities, or draw them with --temperature");
     }
-    add_sorted(frame, table, std::move(rows_), path_);
+    add_sorted(frame, table, std::move(rows_), AllZero::NoNumbers, path_);
     frame.dimension = dimension_of(frame, choice_, path_);
     move_corner(frame, low_);
     return frame;
@@ -288,7 +421,7 @@ class DataFile {
   void set_masses() {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const auto mass = masses_.find(types_of_rows_[i]);
-      if (mass != masses_.end()) rows_[i].row[kMass] = lines_.real(mass->second);
+      if (mass != masses_.end()) rows_[i].row[kMass] = mass->second;
     }
   }
 
@@ -301,12 +434,15 @@ class DataFile {
   ParticleFrame::Vector low_ = {-0.5, -0.5, -0.5}, high_ = {0.5, 0.5, 0.5};
   std::vector<double> tilts_;
   int tilt_line_ = 0;
-  std::size_t atoms_ = 0, types_ = 0;
-  std::vector<int> columns_;                            // of the section Atoms
-  std::vector<ParticleLine> rows_;                      // [N]
-  std::vector<std::string> types_of_rows_;              // [N]
-  std::map<double, std::size_t> place_of_;              // row of an atom
-  std::map<std::string, std::string> masses_, labels_;  // by type
+  std::array<int, 3> bound_lines_ = {};                     // of the edges of the box; 0: none
+  std::map<std::string, std::size_t, std::less<>> counts_;  // in the header, by keyword
+  std::vector<int> columns_;                                // of the section Atoms
+  ParticleTable table_;                                     // of the section Atoms
+  std::vector<ParticleLine> rows_;                          // [N]
+  std::vector<std::size_t> types_of_rows_;                  // [N]
+  std::map<double, std::size_t> place_of_;                  // row of an atom
+  std::map<std::size_t, double> masses_;                    // by atom type
+  std::map<std::string, std::size_t> labels_;               // atom type of a label
   bool has_velocities_ = false;
 };
 

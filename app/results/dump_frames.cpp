@@ -1,6 +1,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,11 +24,15 @@ class DumpFrames {
     ParticleFrame frame;
     ParticleFrame::Vector corner = {};
     std::optional<std::size_t> particles;
-    bool begun = false;
+    std::set<std::string> items;
     while (lines_.next()) {
-      if (!begun && lines_.words().empty()) continue;
-      begun = true;
+      if (items.empty() && lines_.words().empty()) continue;
       const std::string item = item_of_line();
+      const std::string kind = item.starts_with("BOX BOUNDS ") ? "BOX BOUNDS" : item;
+      if (!items.insert(kind).second) {
+        lines_.refuse("the frame has a second " + quoted_start("ITEM: " + kind),
+                      "give each item once in a frame");
+      }
       if (item == "TIMESTEP") {
         frame.number = next_step();
       } else if (item == "TIME") {
@@ -38,15 +43,17 @@ class DumpFrames {
         particles = lines_.count(next_word());
       } else if (item.starts_with("BOX BOUNDS ")) {
         corner = read_box(frame);
-      } else if (item.starts_with("ATOMS ") && particles && frame.box) {
+      } else if (item.starts_with("ATOMS ") && items.contains("TIMESTEP") && particles &&
+                 frame.box) {
         read_atoms(frame, corner, *particles);
         return frame;
       } else {
-        lines_.refuse("unexpected line " + in_quotes(lines_.text().substr(0, 40)),
-                      "give a text dump of LAMMPS with box and number of atoms");
+        lines_.refuse(
+            "unexpected line " + quoted_start(lines_.text()),
+            "give a text dump of LAMMPS with time step, number of atoms and box before the atoms");
       }
     }
-    if (begun) lines_.refuse_end();
+    if (!items.empty()) lines_.refuse_end();
     return std::nullopt;
   }
 
@@ -76,8 +83,7 @@ class DumpFrames {
     const std::string_view word = next_word();
     const auto step = whole_number<long>(word);
     if (step && *step >= 0) return *step;
-    lines_.refuse(in_quotes(word.substr(0, 40)) + " is no number of a time step",
-                  "give a whole number");
+    lines_.refuse(quoted_start(word) + " is no number of a time step", "give a whole number");
   }
 
   // Reads the box in one of its three forms. Returns its lower corner.
@@ -94,10 +100,11 @@ class DumpFrames {
       frame.box->periodic[axis] = is_periodic(words, axis);
     }
     std::array<std::vector<double>, 3> rows;
-    for (std::vector<double>& row : rows) row = next_numbers(general ? 4 : tilted ? 3 : 2);
     ParticleFrame::Vector corner = {};
     std::vector<double> across;
     for (std::size_t axis = 0; axis < 3; ++axis) {
+      rows[axis] = next_numbers(general ? 4 : tilted ? 3 : 2);
+      frame.box->lines[axis] = lines_.number();
       corner[axis] = rows[axis][general ? 3 : 0];
       frame.box->lengths[axis] = general ? rows[axis][axis] : rows[axis][1] - rows[axis][0];
       if (tilted) across.push_back(rows[axis][2]);
@@ -121,7 +128,7 @@ class DumpFrames {
     if (word == "pp") return true;
     const auto is_wall = [](char side) { return side == 'f' || side == 's' || side == 'm'; };
     if (word.size() == 2 && is_wall(word[0]) && is_wall(word[1])) return false;
-    lines_.refuse(in_quotes(word.substr(0, 40)) + " is no kind of boundaries",
+    lines_.refuse(quoted_start(word) + " is no kind of boundaries",
                   "write pp for a periodic axis, and ff for walls");
   }
 
@@ -180,41 +187,63 @@ class DumpFrames {
   // LAMMPS writes atoms in any order; they are sorted by their numbers.
   void read_atoms(ParticleFrame& frame, const ParticleFrame::Vector& corner,
                   std::size_t particles) {
-    const ParticleTable table(columns());
+    const LineWords words = lines_.words();
+    const ParticleTable table(columns(), {}, {words.begin() + 2, words.end()});
+    const int header = lines_.number();
     table.require_state(lines_, choice_, "give the columns vx and vy");
     std::vector<ParticleLine> atoms;
     for (std::size_t i = 0; i < particles; ++i) {
       lines_.require_next();
       ParticleTable::Row row = table.row(lines_, lines_.words());
-      for (int axis = 0; axis < 3; ++axis) {
-        place(table, row, axis, frame.box->lengths[axis], corner[axis]);
-      }
+      for (int axis = 0; axis < 3; ++axis) place(table, row, axis, *frame.box, corner[axis]);
       atoms.push_back({row, lines_.number()});
     }
-    add_sorted(frame, table, std::move(atoms), path_);
+    add_sorted(frame, table, std::move(atoms), AllZero::NoNumbers, path_);
     frame.dimension = dimension_of(frame, choice_, path_);
-    if (frame.dimension == 3) table.require_spheres(lines_);
+    if (frame.dimension == 3) table.require_spheres(lines_, header);
     move_corner(frame, corner);
   }
 
   // Sets position and periodic image along an axis from the columns that the dump has. Unwrapped
   // positions contain the image.
-  static void place(const ParticleTable& table, ParticleTable::Row& row, int axis, double length,
-                    double low) {
-    const bool wrapped = table.has(kX + axis) || table.has(kScaled + axis);
-    const bool unwrapped = table.has(kUnwrapped + axis);
-    const bool both = unwrapped || table.has(kScaledUnwrapped + axis);
-    const double beyond =
-        unwrapped ? row[kUnwrapped + axis] : low + row[kScaledUnwrapped + axis] * length;
-    double& position = row[kX + axis];
+  void place(const ParticleTable& table, ParticleTable::Row& row, int axis, const ParticleBox& box,
+             double low) const {
+    const double length = box.lengths[axis];
+    const std::optional<double> inside = position(table, row, kX, kScaled, axis, length, low);
+    const std::optional<double> beyond =
+        position(table, row, kUnwrapped, kScaledUnwrapped, axis, length, low);
     double& image = row[kImage + axis];
-    if (!wrapped) {
-      position = beyond;
+    row[kX + axis] = inside.value_or(beyond.value_or(0.0));
+    if (!inside) image = 0.0;
+    if (!inside || !beyond) return;
+    if (!box.periodic[axis]) {
       image = 0.0;
-      return;
+    } else if (!table.has(kImage + axis)) {
+      image = length > 0.0 ? std::round((*beyond - *inside) / length) : 0.0;
     }
-    if (!table.has(kX + axis)) position = low + row[kScaled + axis] * length;
-    if (both && !table.has(kImage + axis)) image = std::round((beyond - position) / length);
+    require_fit(*inside + image * length, *beyond, axis, length);
+  }
+
+  // The position in one of two columns, of which the second is in edges of the box.
+  std::optional<double> position(const ParticleTable& table, const ParticleTable::Row& row,
+                                 int quantity, int scaled, int axis, double length,
+                                 double low) const {
+    const double from_scaled = low + row[scaled + axis] * length;
+    if (!table.has(quantity + axis)) {
+      return table.has(scaled + axis) ? std::optional(from_scaled) : std::nullopt;
+    }
+    if (table.has(scaled + axis)) require_fit(row[quantity + axis], from_scaled, axis, length);
+    return row[quantity + axis];
+  }
+
+  // Throws if two positions of a particle differ by more than the digits of LAMMPS.
+  void require_fit(double one, double other, int axis, double length) const {
+    constexpr double kSixDigits = 1e-5;
+    const double size = std::fabs(one) + std::fabs(other) + std::fabs(length);
+    if (std::fabs(one - other) <= kSixDigits * size) return;
+    lines_.refuse(std::string("the positions along ") + "xyz"[axis] +
+                      " contradict each other: " + number_text(one) + " and " + number_text(other),
+                  "remove the columns of one of them");
   }
 
   std::filesystem::path path_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/results/binary_frames.h"
+#include "app/results/gzip.h"
 #include "app/results/text_frames.h"
 #include "app/results/trajectory.h"
 #include "engine/error.h"
@@ -22,12 +23,13 @@ std::filesystem::path uncompressed_name(const std::filesystem::path& path) {
   return path.extension() == ".gz" ? path.parent_path() / path.stem() : path;
 }
 
-// LAMMPS names its data files data.NAME, other programs NAME.data.
+// LAMMPS names its data files data.NAME, other programs NAME.data. Names such as data.csv are those
+// of trajectories.
 bool is_data_file(const std::filesystem::path& path) {
   const std::filesystem::path name = uncompressed_name(path);
   const std::string extension = name.extension();
   return extension == ".data" || extension == ".lmp" ||
-         name.filename().string().starts_with("data.");
+         (name.filename().string().starts_with("data.") && !find_trajectory_format(name));
 }
 
 bool is_binary(TrajectoryFormat format) {
@@ -84,23 +86,27 @@ void require_one_kind(const ParticleFrame& frame, double scale, const std::files
 
 // Throws unless the box has room for a particle.
 void require_room(const ParticleFrame& frame, const std::filesystem::path& path) {
-  for (int axis = 0; frame.box && axis < frame.dimension; ++axis) {
+  for (int axis = 0; frame.box && axis < 3; ++axis) {
     const double length = frame.box->lengths[axis];
-    if (!(length > 0.0) || !std::isfinite(length)) {
-      throw UserError({path.string()}, "an edge of the box is not a positive number",
-                      "give another file");
+    const bool flat = axis >= frame.dimension && length == 0.0;
+    if (!(length > 0.0 || flat) || !std::isfinite(length)) {
+      throw UserError(
+          {path.string(), frame.box->lines[axis]},
+          std::string("the edge of the box along ") + "xyz"[axis] + " is " + number_text(length),
+          "give a positive number");
     }
-    if (length > 1.0) continue;
+    if (length > 1.0 || axis >= frame.dimension) continue;
     const std::string extent = number_text(length) + " along " + "xyz"[axis];
     if (axis == 2) {
       const std::string problem = "the box is " + extent + ", too thin for spheres";
       const std::string advice = "give a deeper box, or disks that move in one plane z";
       const auto out = first_out_of_plane(frame, 1.0);
-      if (!out) throw UserError({path.string()}, problem, advice);
+      if (!out) throw UserError({path.string(), frame.box->lines[axis]}, problem, advice);
       refuse_particle(frame, *out, path, problem + ", and not all particles move in one plane",
                       advice);
     }
-    throw UserError({path.string()}, "the box is " + extent + ", not more than a diameter",
+    throw UserError({path.string(), frame.box->lines[axis]},
+                    "the box is " + extent + ", not more than a diameter",
                     "give the diameter in the lengths of the file with --scale");
   }
 }
@@ -113,7 +119,7 @@ void require_sound(const ParticleFrame& frame, const std::filesystem::path& path
   require_finite(frame, frame.velocities, "velocity", path);
   require_finite(frame, frame.spins, "angular velocity", path);
   if (!std::isfinite(frame.time)) {
-    throw UserError({path.string()}, "the time is not finite", "give another frame");
+    throw UserError({path.string()}, "the time is not finite", "give another frame with --frame");
   }
 }
 
@@ -129,22 +135,24 @@ void divide_lengths(ParticleFrame& frame, double scale) {
 }  // namespace
 
 bool is_plain_text(const std::filesystem::path& path) {
-  if (path.extension() == ".gz") return false;
-  return is_data_file(path) || !is_binary(trajectory_format(path, "IN"));
+  require_regular(path, "IN");
+  if (is_gzip(path)) return false;
+  return is_data_file(path) || !is_binary(trajectory_format(uncompressed_name(path), "IN"));
 }
 
 ParticleFrame read_frame(const std::filesystem::path& path, const FrameChoice& choice,
                          const char* flag) {
   const auto read = [&] {
     require_regular(path, flag);
+    const std::filesystem::path name = uncompressed_name(path);
+    if (!choice.group.empty() && find_trajectory_format(name) != TrajectoryFormat::H5md) {
+      throw UserError({"--group", 0, 0}, path.string() + " is no H5MD file", "omit --group");
+    }
     if (is_data_file(path)) return read_data_file(path, choice);
-    const TrajectoryFormat format = trajectory_format(uncompressed_name(path), flag);
+    const TrajectoryFormat format = trajectory_format(name, flag);
     if (is_binary(format) && path.extension() == ".gz") {
       throw UserError({flag, 0, 0}, path.string() + " is compressed",
                       "decompress it with gunzip: only text may be compressed");
-    }
-    if (!choice.group.empty() && format != TrajectoryFormat::H5md) {
-      throw UserError({"--group", 0, 0}, path.string() + " is no H5MD file", "omit --group");
     }
     switch (format) {
       case TrajectoryFormat::ExtXyz:
@@ -173,7 +181,10 @@ ParticleFrame read_frame(const std::filesystem::path& path, const FrameChoice& c
 void wrap_into_box(ParticleFrame& frame, const std::filesystem::path& path) {
   for (int axis = 0; frame.box && axis < frame.dimension; ++axis) {
     const double length = frame.box->lengths[axis];
-    if (!frame.box->periodic[axis]) continue;
+    if (!frame.box->periodic[axis]) {
+      for (ParticleFrame::Vector& image : frame.images) image[axis] = 0.0;
+      continue;
+    }
     for (std::size_t i = 0; i < frame.positions.size(); ++i) {
       double& place = frame.positions[i][axis];
       if (place >= 0.0 && place <= length) continue;

@@ -17,14 +17,7 @@ namespace clatter {
 
 namespace {
 
-using Vectors3 = std::vector<ParticleFrame::Vector>;
 using Numbers = std::optional<std::vector<double>>;
-
-Vectors3 vectors_of(const std::vector<double>& numbers) {
-  Vectors3 vectors(numbers.size() / 3);
-  for (std::size_t k = 0; k < numbers.size(); ++k) vectors[k / 3][k % 3] = numbers[k];
-  return vectors;
-}
 
 // A frame of the schema "hoomd". Chunks that it lacks are those of frame 0, if that has as many
 // particles, or else defaults.
@@ -77,7 +70,8 @@ class GsdFrame {
   // The frame that has a chunk; absent: its numbers are defaults.
   std::optional<std::uint64_t> place_of(const std::string& chunk) {
     if (reader_.has(chunk, place_)) return place_;
-    const bool per_particle = chunk.starts_with("particles/");
+    const bool per_particle =
+        chunk.starts_with("particles/") || chunk.starts_with("log/particles/");
     if (per_particle && particles_ != first_particles_) return std::nullopt;
     if (reader_.has(chunk, 0)) return 0;
     return std::nullopt;
@@ -97,21 +91,31 @@ class GsdFrame {
     return of_particles(name, 1).value_or(std::vector<double>(particles_, otherwise));
   }
 
-  // The exact numbers log/NAME of the vectors `rounded` that follow from a chunk, if both are in
-  // the same frame. Throws if they contradict each other: differ by more than the rounding of
-  // numbers of at least a magnitude.
+  std::vector<double> zeros() const { return std::vector<double>(3 * particles_, 0.0); }
+
+  // The frame that has the exact numbers of a chunk, or of its defaults; absent: none has.
+  std::optional<std::uint64_t> place_of_exact(const std::string& log, const std::string& chunk) {
+    const bool newer = reader_.has(chunk, place_) && !reader_.has(log, place_);
+    return newer ? std::nullopt : place_of(log);
+  }
+
+  // The exact numbers log/NAME of the vectors `rounded`, which follow from a chunk or are its
+  // defaults. Without exact ones the rounded. Throws if the two contradict each other: differ by
+  // more than the rounding of numbers of at least a magnitude.
   std::vector<double> exact_numbers(const std::string& name, const std::vector<double>& rounded,
                                     const std::string& chunk,
                                     double magnitude = std::numeric_limits<float>::min()) {
-    const std::optional<std::uint64_t> place = place_of(chunk);
-    if (!place || !reader_.has("log/" + name, *place)) return rounded;
+    const std::optional<std::uint64_t> place = place_of_exact("log/" + name, chunk);
+    if (!place) return rounded;
     const bool per_particle = name.starts_with("particles/");
     const std::vector<double> exact = *reader_.numbers(
         "log/" + name, *place, per_particle ? particles_ : 3, per_particle ? 3 : 1);
     for (std::size_t k = 0; k < rounded.size(); ++k) {
       const double size = std::max(std::fabs(exact[k]), magnitude);
       if (std::fabs(exact[k] - rounded[k]) <= kSingle * size) continue;
-      refuse("the chunks log/" + name + " and " + chunk + " contradict each other",
+      refuse(place_of(chunk)
+                 ? "the chunks log/" + name + " and " + chunk + " contradict each other"
+                 : "the chunk log/" + name + " contradicts the default of the absent " + chunk,
              "remove the chunk log/" + name);
     }
     return exact;
@@ -119,7 +123,7 @@ class GsdFrame {
 
   void read_box(ParticleFrame& frame) {
     Numbers box = numbers("configuration/box", 6, 1);
-    if (!box) refuse("the box is missing", "give another file");
+    if (!box) refuse("the box is missing", "give a file with configuration/box");
     for (const std::size_t tilt : {3u, 4u, 5u}) {
       if (!(std::fabs((*box)[tilt]) <= frame.rounding)) refuse_tilt(path_);
     }
@@ -128,6 +132,10 @@ class GsdFrame {
     const std::vector<double> lengths =
         exact_numbers("configuration/box", *box, "configuration/box");
     std::ranges::copy(lengths, frame.box->lengths.begin());
+    if (!(lengths[2] >= 0.0) || !std::isfinite(lengths[2])) {
+      refuse("the edge of the box along z is " + number_text(lengths[2]),
+             "give a positive number, or 0 for disks");
+    }
     frame.box->periodic = {true, true, lengths[2] > 0.0};
     const Numbers periodic = numbers("log/configuration/periodic", 3, 1);
     for (std::size_t axis = 0; periodic && axis < 3; ++axis) {
@@ -138,8 +146,7 @@ class GsdFrame {
   // Positions of the chunk are relative to the centre of the box.
   void read_positions(ParticleFrame& frame) {
     const std::string name = "particles/position";
-    std::vector<double> positions =
-        of_particles(name, 3).value_or(std::vector<double>(3 * particles_, 0.0));
+    std::vector<double> positions = of_particles(name, 3).value_or(zeros());
     const auto& lengths = frame.box->lengths;
     for (std::size_t k = 0; k < positions.size(); ++k) positions[k] += 0.5 * lengths[k % 3];
     frame.positions = vectors_of(exact_numbers(name, positions, name, std::ranges::max(lengths)));
@@ -148,35 +155,44 @@ class GsdFrame {
   // HOOMD-blue omits velocities that are 0.
   void read_velocities(ParticleFrame& frame) {
     const std::string name = "particles/velocity";
-    if (const Numbers rounded = of_particles(name, 3)) {
-      frame.velocities = vectors_of(exact_numbers(name, *rounded, name));
-    } else if (choice_.needs_velocities) {
-      frame.velocities.resize(particles_);
-    }
+    const Numbers rounded = of_particles(name, 3);
+    const std::vector<double> exact = exact_numbers(name, rounded.value_or(zeros()), name);
+    if (rounded || choice_.needs_velocities) frame.velocities = vectors_of(exact);
   }
 
-  // The moment of inertia about all axes, of disks about z; absent: the particles do not rotate.
+  // The moment of inertia about all axes, of disks about z; absent: the particles do not rotate,
+  // because all moments are 0.
   std::optional<double> moment_of_inertia() {
     const Numbers moments = of_particles("particles/moment_inertia", 3);
-    if (!moments || moments->empty() || !(moments->back() > 0.0)) return std::nullopt;
+    const auto is_zero = [](double moment) { return moment == 0.0; };
+    if (!moments || std::ranges::all_of(*moments, is_zero)) return std::nullopt;
+    const double about_z = (*moments)[2];
     for (std::size_t k = 0; k < moments->size(); ++k) {
-      const bool flat = k % 3 < 2 && (*moments)[k] == 0.0;
-      if (flat || std::fabs((*moments)[k] - moments->back()) <= kSingle * moments->back()) continue;
+      const double moment = (*moments)[k];
+      const bool flat = k % 3 < 2 && moment == 0.0;
+      if (about_z > 0.0 && (flat || std::fabs(moment - about_z) <= kSingle * about_z)) continue;
       refuse("the moments of inertia are not those of equal disks or spheres",
              "give particles of one kind");
     }
-    return moments->back();
+    return about_z;
   }
 
   // The angular momentum L in space is half the product of the quaternions angmom and the conjugate
   // of orientation.
   void read_rotation(ParticleFrame& frame) {
+    const std::string log = "particles/angular_velocity", chunk = "particles/angmom";
     const std::optional<double> moment = moment_of_inertia();
-    if (!moment) return;
+    if (!moment) {
+      exact_numbers(log, zeros(), "particles/moment_inertia");
+      return;
+    }
     const double diameter = frame.diameters.front();
     frame.inertia = 4.0 * *moment / (frame.masses.front() * diameter * diameter);
-    const Numbers momenta = of_particles("particles/angmom", 4);
-    if (!momenta) return;
+    const Numbers momenta = of_particles(chunk, 4);
+    if (!momenta) {
+      exact_numbers(log, zeros(), chunk);
+      return;
+    }
     const Numbers orientations = of_particles("particles/orientation", 4);
     std::vector<double> spins;
     for (std::size_t i = 0; i < particles_; ++i) {
@@ -187,8 +203,7 @@ class GsdFrame {
       spins.push_back((p[2] * q[0] - p[0] * q[2] - p[3] * q[1] + p[1] * q[3]) / (2.0 * *moment));
       spins.push_back((p[3] * q[0] - p[0] * q[3] - p[1] * q[2] + p[2] * q[1]) / (2.0 * *moment));
     }
-    frame.spins =
-        vectors_of(exact_numbers("particles/angular_velocity", spins, "particles/angmom"));
+    frame.spins = vectors_of(exact_numbers(log, spins, chunk));
   }
 
   // Older files have no number of dimensions, and a box without extent along z.

@@ -12,6 +12,7 @@ namespace clatter {
 /// Reads a GSD file of the schema "hoomd". Every function throws UserError if the file is damaged.
 class GsdReader {
  public:
+  /// Opens a file.
   explicit GsdReader(const std::filesystem::path& path);
 
   /// Number of frames.

@@ -25,11 +25,8 @@ bool is_gzip(const std::filesystem::path& path) {
 }
 
 std::string gunzipped(const std::filesystem::path& path) {
-  const auto refuse = [&](const std::string& problem) {
-    throw UserError({path.string()}, problem, "decompress it with gunzip, or give another file");
-  };
-  const std::string bytes =
-      read_file(path.string(), kLargestText, "decompress it with gunzip, or give another file");
+  constexpr const char* kDecompress = "decompress it with gunzip";
+  const std::string bytes = read_file(path.string(), kLargestText, kDecompress);
   const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)>
       decompressor(libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
   std::string text(std::min(4 * bytes.size(), kLargestText), '\0');
@@ -40,11 +37,16 @@ std::string gunzipped(const std::filesystem::path& path) {
         libdeflate_gzip_decompress_ex(decompressor.get(), rest.data(), rest.size(), &text[written],
                                       text.size() - written, &taken, &given);
     if (result == LIBDEFLATE_INSUFFICIENT_SPACE) {
-      if (text.size() == kLargestText) refuse("the compressed file has more than 4 GB");
+      if (text.size() == kLargestText) {
+        throw UserError({path.string()}, "the compressed file has more than 4 GB", kDecompress);
+      }
       text.resize(std::min(2 * text.size(), kLargestText));
       continue;
     }
-    if (result != LIBDEFLATE_SUCCESS) refuse("the compressed file is damaged or cut off");
+    if (result != LIBDEFLATE_SUCCESS) {
+      throw UserError({path.string()}, "the compressed file is damaged or cut off",
+                      "give a complete file");
+    }
     written += given;
     rest.remove_prefix(taken);
   }

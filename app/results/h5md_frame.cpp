@@ -15,16 +15,6 @@ namespace clatter {
 
 namespace {
 
-using Vectors3 = std::vector<ParticleFrame::Vector>;
-
-Vectors3 vectors_of(const std::vector<double>& numbers, std::size_t components) {
-  Vectors3 vectors(numbers.size() / components);
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
-    vectors[k / components][k % components] = numbers[k];
-  }
-  return vectors;
-}
-
 // The elements of a list at `places`; an empty list stays empty.
 template <class T>
 void choose(std::vector<T>& list, const std::vector<std::size_t>& places) {
@@ -48,6 +38,7 @@ void sort_by_id(ParticleFrame& frame, const std::vector<std::optional<double>>& 
     throw UserError({path.string()}, "the id " + number_text(id(*twice)) + " occurs twice",
                     "give each particle its own id");
   }
+  for (const std::size_t place : places) frame.ids.push_back(id(place));
   choose(frame.positions, places);
   choose(frame.velocities, places);
   choose(frame.spins, places);
@@ -57,14 +48,13 @@ void sort_by_id(ParticleFrame& frame, const std::vector<std::optional<double>>& 
 }
 
 void read_box(ParticleFrame& frame, const H5mdReader& reader, std::size_t place) {
+  reader.require_dimension();
   const std::vector<double> lengths = reader.box(place);
   const std::vector<bool> periodic = reader.periodic();
   frame.box.emplace();
   for (std::size_t axis = 0; axis < lengths.size(); ++axis) {
     frame.box->lengths[axis] = lengths[axis];
     frame.box->periodic[axis] = periodic[axis];
-    if (periodic[axis]) continue;
-    for (ParticleFrame::Vector& image : frame.images) image[axis] = 0.0;  // placeholders
   }
 }
 
@@ -79,7 +69,9 @@ ParticleFrame h5md_frame(const std::filesystem::path& path, const FrameChoice& c
   frame.positions = vectors("position");
   frame.number = step_of(reader.step(place));
   frame.time = reader.time(place);
-  if (choice.needs_velocities || reader.has("velocity")) frame.velocities = vectors("velocity");
+  if (choice.needs_velocities || reader.is_sampled("velocity", place)) {
+    frame.velocities = vectors("velocity");
+  }
   if (reader.has("image")) frame.images = vectors("image");
   if (reader.components() == 3 && reader.has("angular_velocity")) {
     frame.spins = vectors("angular_velocity");

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <numeric>
 #include <type_traits>
 
 #include "app/results/particle_frame.h"
@@ -59,6 +58,14 @@ std::vector<std::string> texts_of(const H5::Attribute& attribute) {
   return texts;
 }
 
+// The numbers of an attribute; empty: they are not whole.
+std::vector<int> whole_numbers_of(const H5::Attribute& attribute) {
+  if (attribute.getTypeClass() != H5T_INTEGER) return {};
+  std::vector<int> numbers(static_cast<std::size_t>(attribute.getSpace().getSimpleExtentNpoints()));
+  if (!numbers.empty()) attribute.read(H5::PredType::NATIVE_INT, numbers.data());
+  return numbers;
+}
+
 // Whether a dataset has integers, or numbers of IEEE 754.
 bool has_numbers(const H5::DataSet& dataset) {
   const H5T_class_t kind = dataset.getTypeClass();
@@ -99,12 +106,7 @@ H5mdReader::H5mdReader(const std::filesystem::path& path, const std::string& gro
 
 void H5mdReader::open_group(const std::string& wanted) {
   const H5::Group root = file_.openGroup("/");
-  if (is_group(root, "h5md") && root.openGroup("h5md").attrExists("version")) {
-    const H5::Attribute version = root.openGroup("h5md").openAttribute("version");
-    std::vector<int> numbers(static_cast<std::size_t>(version.getSpace().getSimpleExtentNpoints()));
-    version.read(H5::PredType::NATIVE_INT, numbers.data());
-    if (numbers.empty() || numbers[0] != 1) refuse("the file is not H5MD 1", "give another file");
-  }
+  require_version();
   if (!is_group(root, "particles")) {
     refuse("the file has no group \"particles\"", "give a trajectory in H5MD");
   }
@@ -117,7 +119,7 @@ void H5mdReader::open_group(const std::string& wanted) {
     list += (names.empty() ? "" : ", ") + in_quotes(name);
     names.push_back(name);
   }
-  if (names.empty()) refuse("the group \"particles\" is empty", "give another file");
+  if (names.empty()) refuse("the group \"particles\" is empty", "give a file with particles");
   if (wanted.empty() && names.size() > 1) {
     refuse("the file has several groups of particles: " + list, "name one with --group");
   }
@@ -126,6 +128,18 @@ void H5mdReader::open_group(const std::string& wanted) {
     refuse("the file has no group of particles " + in_quotes(group_), "its groups are " + list);
   }
   particles_ = all.openGroup(group_);
+}
+
+void H5mdReader::require_version() const {
+  const H5::Group root = file_.openGroup("/");
+  std::vector<int> version;
+  if (is_group(root, "h5md") && root.openGroup("h5md").attrExists("version")) {
+    version = whole_numbers_of(root.openGroup("h5md").openAttribute("version"));
+  }
+  if (version.size() == 2 && version[0] == 1) return;
+  refuse(version.size() == 2 ? "the file has version " + std::to_string(version[0]) + " of H5MD"
+                             : "the file does not say its version of H5MD",
+         "give a file of version 1, with the attribute h5md/version = [1, 1]");
 }
 
 void H5mdReader::read_shape() {
@@ -145,11 +159,17 @@ void H5mdReader::read_shape() {
 void H5mdReader::require(const std::string& name) const {
   if (has(name)) return;
   refuse("the particles of the group " + in_quotes(group_) + " have no " + name,
-         "give a file with " + name);
+         "give a file with " + name +
+             (name == "velocity" ? ", or draw velocities with --temperature" : ""));
 }
 
 bool H5mdReader::has(const std::string& name) const {
   return checked([&] { return particles_.nameExists(name); });
+}
+
+bool H5mdReader::is_sampled(const std::string& name, std::size_t frame) const {
+  return checked(
+      [&] { return has(name) && (!in_time(name) || sampled_row(name, frame).has_value()); });
 }
 
 bool H5mdReader::is_single(const std::string& name) const {
@@ -202,8 +222,11 @@ const H5mdReader::Steps& H5mdReader::steps_of(const std::string& element) const 
   if (!particles_.openGroup(element).nameExists("step")) {
     refuse("the quantity " + in_quotes(element) + " has no step", "give a complete file");
   }
-  Steps steps = {series(element, "step"), true};
-  if (element != "position") steps.of_positions = steps.values == steps_of("position").values;
+  Steps steps = {.values = series(element, "step")};
+  steps.increase =
+      std::ranges::adjacent_find(steps.values, std::greater_equal()) == steps.values.end();
+  steps.of_positions =
+      element == "position" || (in_time("position") && steps.values == steps_of("position").values);
   return steps_[element] = steps;
 }
 
@@ -223,18 +246,18 @@ double H5mdReader::time(std::size_t frame) const {
 std::optional<std::size_t> H5mdReader::sampled_row(const std::string& element,
                                                    std::size_t frame) const {
   const Steps& steps = steps_of(element);
-  if (in_time("position") && steps.of_positions) return frame;
+  if (steps.of_positions) return frame;
   if (steps.values.size() == 1 && is_constant(element)) return 0;
   if (!in_time("position")) return std::nullopt;
-  const std::vector<double>& wanted = steps_of("position").values;
-  for (const auto& each : {std::cref(steps.values), std::cref(wanted)}) {
-    if (std::ranges::adjacent_find(each.get(), std::greater_equal()) == each.get().end()) continue;
+  const Steps& wanted = steps_of("position");
+  if (!steps.increase || !wanted.increase) {
     refuse("the steps of the quantity " + in_quotes(element) +
                " are not those of the positions, and do not increase",
            "give steps that increase");
   }
-  const auto row = std::ranges::lower_bound(steps.values, wanted[frame]);
-  if (row == steps.values.end() || *row != wanted[frame]) return std::nullopt;
+  const double step = wanted.values[frame];
+  const auto row = std::ranges::lower_bound(steps.values, step);
+  if (row == steps.values.end() || *row != step) return std::nullopt;
   return static_cast<std::size_t>(row - steps.values.begin());
 }
 
@@ -251,16 +274,21 @@ std::size_t H5mdReader::row_at(const std::string& element, std::size_t frame) co
          advice);
 }
 
-// Throws if an element claims more numbers than a frame can have.
-void H5mdReader::require_size(const std::string& element, const std::vector<hsize_t>& shape) const {
+// The size of a row of an element. Throws if it claims more numbers than a frame can have.
+std::size_t H5mdReader::size_of(const std::string& element,
+                                const std::vector<hsize_t>& shape) const {
   constexpr hsize_t kDeflate = 1032;  // makes no data smaller than this share
   const hsize_t most = std::min<hsize_t>(kDeflate * std::filesystem::file_size(path_),
                                          hsize_t{3} * kMaxParticles<2>);
   hsize_t size = 1;
-  for (const hsize_t length : shape) size = length > most ? most + 1 : size * length;
-  if (size > most) {
-    refuse("the quantity " + in_quotes(element) + " is too large", "give another file");
+  for (const hsize_t length : shape) {
+    if (size > 0 && length > most / size) {
+      refuse("the quantity " + in_quotes(element) + " is too large",
+             "give a file with fewer particles");
+    }
+    size *= length;
   }
+  return size;
 }
 
 // The numbers of an element at a frame, and their shape. An element is a dataset, or a group with a
@@ -280,10 +308,8 @@ std::vector<double> H5mdReader::read_row(const std::string& element, std::size_t
     refuse("the quantity " + in_quotes(element) + " has no numbers of IEEE 754",
            "give integers or numbers of single or double precision");
   }
-  require_size(element, shape);
+  std::vector<double> numbers(size_of(element, shape));
   if (moves) offset[0] = row_at(element, frame);
-  std::vector<double> numbers(
-      std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<std::size_t>()));
   if (numbers.empty()) return numbers;
   const H5::DataSpace file = dataset.getSpace();
   if (!count.empty()) file.selectHyperslab(H5S_SELECT_SET, count.data(), offset.data());
@@ -312,7 +338,7 @@ std::vector<double> H5mdReader::numbers(const std::string& name, std::size_t fra
     const std::vector<double> numbers = read_row(name, frame, shape);
     if (shape != std::vector<hsize_t>{count_}) {
       refuse("the quantity " + in_quotes(name) + " has not one number per particle",
-             "give another file");
+             "give as many numbers as positions");
     }
     return numbers;
   });
@@ -334,17 +360,30 @@ std::vector<std::optional<double>> H5mdReader::ids(std::size_t frame) const {
   });
 }
 
-std::vector<double> H5mdReader::box(std::size_t frame) const {
+void H5mdReader::require_dimension() const {
   require("box");
+  checked([&] {
+    const H5::Group box = particles_.openGroup("box");
+    std::vector<int> dimension;
+    if (box.attrExists("dimension")) dimension = whole_numbers_of(box.openAttribute("dimension"));
+    if (dimension == std::vector{static_cast<int>(components_)}) return;
+    refuse(dimension.size() == 1 ? "the dimension of the box is " + std::to_string(dimension[0])
+                                 : "the box has no whole number as its attribute dimension",
+           "give " + std::to_string(components_) + ", the number of coordinates of a particle");
+  });
+}
+
+std::vector<double> H5mdReader::box(std::size_t frame) const {
   return checked([&] {
     if (!particles_.openGroup("box").nameExists("edges")) {
-      refuse("the box has no edges", "give a file with box/edges");
+      refuse("the box has no edges", "clatter needs walls, so give box/edges along every axis");
     }
     std::vector<hsize_t> shape;
     const std::vector<double> edges = read_row("box/edges", frame, shape);
     if (shape == std::vector<hsize_t>{components_}) return edges;
     if (shape != std::vector<hsize_t>{components_, components_}) {
-      refuse("the box does not have the dimension of the positions", "give another file");
+      refuse("the box does not have the dimension of the positions",
+             "give " + std::to_string(components_) + " edges");
     }
     ParticleBox box;
     for (std::size_t k = 0; k < components_; ++k) box.lengths[k] = edges[k * (components_ + 1)];
@@ -374,7 +413,7 @@ std::vector<bool> H5mdReader::periodic() const {
     std::vector<bool> periodic;
     for (const std::string& text : texts) {
       if (text != "periodic" && text != "none") {
-        refuse("the boundary " + in_quotes(text.substr(0, 40)) + " of the box is unknown",
+        refuse("the boundary " + quoted_start(text) + " of the box is unknown",
                "give periodic or none for each axis");
       }
       periodic.push_back(text == "periodic");

@@ -26,6 +26,8 @@ class H5mdReader {
   std::size_t components() const { return components_; }
   /// Whether the particles have a quantity.
   bool has(const std::string& name) const;
+  /// Whether the particles have a quantity that was sampled at the step of a frame.
+  bool is_sampled(const std::string& name, std::size_t frame) const;
   /// Whether a quantity has single precision.
   bool is_single(const std::string& name) const;
   /// Number of a frame in the run that wrote it; 0 if the positions do not depend on time.
@@ -38,6 +40,8 @@ class H5mdReader {
   std::vector<double> numbers(const std::string& name, std::size_t frame) const;
   /// The identifiers of all particles of a frame; absent: a place without a particle.
   std::vector<std::optional<double>> ids(std::size_t frame) const;
+  /// Throws unless the box has as many dimensions as the positions have components.
+  void require_dimension() const;
   /// Edge lengths of a box without tilt.
   std::vector<double> box(std::size_t frame) const;
   /// Whether each axis of the box is periodic.
@@ -47,12 +51,14 @@ class H5mdReader {
   // The steps of the rows of an element that depends on time.
   struct Steps {
     std::vector<double> values;
+    bool increase = false;      // whether each step is larger than the one before
     bool of_positions = false;  // whether the positions have the same steps
   };
 
   void open_group(const std::string& wanted);
   void read_shape();
   void require(const std::string& name) const;
+  void require_version() const;
   bool in_time(const std::string& element) const;
   H5::DataSet values_of(const std::string& element) const;
   std::vector<double> series(const std::string& element, const std::string& name) const;
@@ -61,7 +67,7 @@ class H5mdReader {
   std::size_t row_at(const std::string& element, std::size_t frame) const;
   std::vector<double> read_row(const std::string& element, std::size_t frame,
                                std::vector<hsize_t>& shape) const;
-  void require_size(const std::string& element, const std::vector<hsize_t>& shape) const;
+  std::size_t size_of(const std::string& element, const std::vector<hsize_t>& shape) const;
   template <class Read>
   auto checked(const Read& read) const;
   [[noreturn]] void refuse(const std::string& problem, const std::string& advice) const;

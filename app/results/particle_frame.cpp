@@ -23,6 +23,14 @@ double largest_component(const std::vector<Vector>& vectors) {
 
 }  // namespace
 
+std::vector<Vector> vectors_of(const std::vector<double>& numbers, std::size_t components) {
+  std::vector<Vector> vectors(numbers.size() / components);
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    vectors[k / components][k % components] = numbers[k];
+  }
+  return vectors;
+}
+
 std::optional<std::size_t> first_out_of_plane(const ParticleFrame& frame, double scale) {
   const double slowest = frame.rounding * largest_component(frame.velocities);
   const double slowest_spin = frame.rounding * largest_component(frame.spins);
@@ -72,11 +80,15 @@ void refuse_particle(const ParticleFrame& frame, std::size_t particle,
                      const std::string& advice) {
   if (!frame.lines.empty())
     throw UserError({path.string(), frame.lines[particle]}, problem, advice);
-  throw UserError({path.string()}, "particle " + std::to_string(particle) + ": " + problem, advice);
+  const std::string name = frame.ids.empty() ? "particle " + std::to_string(particle)
+                                             : "id " + number_text(frame.ids[particle]);
+  throw UserError({path.string()}, name + ": " + problem, advice);
 }
 
 void refuse_frame(const std::filesystem::path& path, std::size_t frames) {
-  if (frames == 0) throw UserError({path.string()}, "the file has no frame", "give another file");
+  if (frames == 0) {
+    throw UserError({path.string()}, "the file has no frame", "give a file with particles");
+  }
   throw UserError({path.string()}, "the file has " + counted(frames, "frame"),
                   frames == 1 ? "give --frame 0, or omit it"
                               : "give --frame from 0 to " + std::to_string(frames - 1));

@@ -13,6 +13,7 @@ namespace clatter {
 struct ParticleBox {
   std::array<double, 3> lengths = {};
   std::array<bool, 3> periodic = {};
+  std::array<int, 3> lines = {};  ///< places of the edges in a text file; 0: none
 };
 
 /// A frame that was read from a file, with three components of each vector. Disks are at z = 0.
@@ -32,20 +33,21 @@ struct ParticleFrame {
   std::vector<double> masses;      ///< [N] equal; empty: the file has none
   std::vector<double> diameters;   ///< [N] equal; empty: the file has none
   std::vector<int> lines;          ///< [N] places in a text file; empty: a binary file
+  std::vector<double> ids;         ///< [N] identifiers in a binary file; empty: none
 };
 
 template <class Archive>
 void visit(Archive& io, ParticleBox& box) {
-  auto& [lengths, periodic] = box;
-  io(lengths, periodic);
+  auto& [lengths, periodic, lines] = box;
+  io(lengths, periodic, lines);
 }
 
 template <class Archive>
 void visit(Archive& io, ParticleFrame& frame) {
   auto& [dimension, number, time, box, inertia, rounding, positions, velocities, spins, images,
-         masses, diameters, lines] = frame;
+         masses, diameters, lines, ids] = frame;
   io(dimension, number, time, box, inertia, rounding, positions, velocities, spins, images, masses,
-     diameters, lines);
+     diameters, lines, ids);
 }
 
 /// Which particles of a file are wanted, and how.
@@ -56,6 +58,10 @@ struct FrameChoice {
   double scale = 1.0;                ///< unit of length: the diameter in the lengths of the file
   bool needs_velocities = true;      ///< whether a file without velocities is an error
 };
+
+/// The vectors of consecutive numbers, with `components` of each.
+std::vector<ParticleFrame::Vector> vectors_of(const std::vector<double>& numbers,
+                                              std::size_t components = 3);
 
 /// The first particle that is not in the plane z of particle 0, or leaves it, by more than rounding
 /// of lengths of at least `scale`; absent: none.
@@ -74,7 +80,8 @@ void move_corner(ParticleFrame& frame, const ParticleFrame::Vector& corner);
 /// meaning.
 long step_of(double number);
 
-/// Throws the UserError of a particle of a frame, with its line in a text file.
+/// Throws the UserError of a particle of a frame, with its line in a text file, or with its
+/// identifier or place in a binary file.
 [[noreturn]] void refuse_particle(const ParticleFrame& frame, std::size_t particle,
                                   const std::filesystem::path& path, const std::string& problem,
                                   const std::string& advice);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -36,9 +37,13 @@ class ParticleTable {
   /// The values of a particle, by quantity; 0 where the table has none.
   using Row = std::array<double, kIgnored>;
 
+  /// A table without columns.
   ParticleTable() = default;
-  explicit ParticleTable(std::vector<int> columns, std::vector<int> derived = {})
-      : columns_(std::move(columns)), derived_(std::move(derived)) {}
+  /// `columns` are the quantities of the columns, and `words` their names in the file. A file
+  /// without a header has no names.
+  explicit ParticleTable(std::vector<int> columns, std::vector<int> derived = {},
+                         std::vector<std::string> words = {})
+      : columns_(std::move(columns)), derived_(std::move(derived)), words_(std::move(words)) {}
 
   /// Whether a quantity is in a column, or derived.
   bool has(int quantity) const;
@@ -48,17 +53,22 @@ class ParticleTable {
   /// `velocities` is an advice how this format has them.
   void require_state(const TextLines& lines, const FrameChoice& choice,
                      const std::string& velocities) const;
-  /// Throws the error of the present line unless vectors of spheres are complete.
-  void require_spheres(const TextLines& lines) const;
+  /// Throws the error of a line, that of the header, unless vectors of spheres are complete.
+  void require_spheres(const TextLines& lines, int line) const;
 
-  /// The values of the words of the present line. Throws unless all columns have finite numbers.
+  /// The values of the words of the present line. Throws if a column is missing or has no value of
+  /// its kind.
   Row row(const TextLines& lines, const LineWords& words) const;
   /// Adds the values of a line as a particle.
   void add(ParticleFrame& frame, const Row& row, int line) const;
 
  private:
+  void require_unique(const TextLines& lines) const;
+  std::string name_of(int quantity) const;
+
   std::vector<int> columns_;
   std::vector<int> derived_;
+  std::vector<std::string> words_;  // names of the columns; empty: none
 };
 
 /// A particle of a table, and the number of its line.
@@ -67,9 +77,16 @@ struct ParticleLine {
   int line;
 };
 
-/// Adds the particles of a table to a frame, sorted by their numbers. Numbers that are all 0 mean
-/// nothing. Throws UserError for other numbers that occur twice.
+/// What it means that all particles of a table have the number 0.
+enum class AllZero {
+  NoNumbers,  ///< atoms of LAMMPS without an atom map
+  Numbers     ///< they are numbers as all others
+};
+
+/// Adds the particles of a table to a frame, sorted by their numbers if they have any. Throws
+/// UserError for numbers that occur twice.
 void add_sorted(ParticleFrame& frame, const ParticleTable& table,
-                std::vector<ParticleLine> particles, const std::filesystem::path& path);
+                std::vector<ParticleLine> particles, AllZero all_zero,
+                const std::filesystem::path& path);
 
 }  // namespace clatter

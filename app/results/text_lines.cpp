@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include "app/results/gzip.h"
@@ -12,8 +13,6 @@
 #include "engine/whole_number.h"
 
 namespace clatter {
-
-static constexpr std::size_t kShown = 40;  // characters of a wrong word in a message
 
 LineWords words_of(std::string_view text) {
   LineWords words;
@@ -37,6 +36,11 @@ TextLines::TextLines(const std::filesystem::path& path, Exponents exponents)
 
 bool TextLines::next() {
   if (!std::getline(*text_, line_)) return false;
+  constexpr int kMostLines = std::numeric_limits<int>::max();
+  if (number_ == kMostLines) {
+    refuse("the file has more than " + std::to_string(kMostLines) + " lines",
+           "give a file with fewer frames");
+  }
   if (line_.ends_with('\r')) line_.pop_back();
   constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
   if (++number_ == 1 && line_.starts_with(kByteOrderMark)) line_.erase(0, kByteOrderMark.size());
@@ -48,30 +52,33 @@ void TextLines::require_next() {
 }
 
 std::optional<double> TextLines::number_in(std::string_view word) const {
-  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
   std::string in_c(word);
   const std::size_t digits = in_c.find_first_of("0123456789"), exponent = in_c.find_first_of("dD");
   if (exponents_ == Exponents::Fortran && exponent != in_c.npos && digits < exponent) {
     in_c[exponent] = 'e';
   }
-  return real_number(in_c);
+  return signed_number<double>(in_c);
 }
 
 double TextLines::real(std::string_view word) const {
   const std::optional<double> number = number_in(word);
   if (number && std::isfinite(*number)) return *number;
-  refuse(in_quotes(word.substr(0, kShown)) + " is no finite number", "write, say, -0.25 or 1.5e-3");
+  refuse(quoted_start(word) + " is no finite number", "write, say, -0.25 or 1.5e-3");
 }
 
 std::size_t TextLines::count(std::string_view word) const {
   const auto count = whole_number<std::size_t>(word);
   if (count && *count <= kMaxParticles<2>) return *count;
-  refuse(in_quotes(word.substr(0, kShown)) + " is no number of particles",
+  refuse(quoted_start(word) + " is no number of particles",
          "give at most " + std::to_string(kMaxParticles<2>));
 }
 
 void TextLines::refuse(const std::string& problem, const std::string& advice) const {
-  throw UserError({path_.string(), number_, 0}, problem, advice);
+  refuse_at(number_, problem, advice);
+}
+
+void TextLines::refuse_at(int line, const std::string& problem, const std::string& advice) const {
+  throw UserError({path_.string(), line, 0}, problem, advice);
 }
 
 void TextLines::refuse_end() const {

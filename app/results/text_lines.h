@@ -11,7 +11,7 @@
 
 namespace clatter {
 
-/// LineWords of a line.
+/// The words of a line. They point into its text, up to the next line.
 using LineWords = std::vector<std::string_view>;
 
 /// The words between blanks of a text.
@@ -27,6 +27,7 @@ class TextLines {
     Fortran  ///< also with d or D
   };
 
+  /// Opens a file. Throws if it cannot be read.
   explicit TextLines(const std::filesystem::path& path, Exponents exponents = Exponents::E);
 
   /// Moves to the next line; false at the end.
@@ -48,6 +49,9 @@ class TextLines {
   std::size_t count(std::string_view word) const;
   /// Throws the error of this line.
   [[noreturn]] void refuse(const std::string& problem, const std::string& advice) const;
+  /// Throws the error of an earlier line.
+  [[noreturn]] void refuse_at(int line, const std::string& problem,
+                              const std::string& advice) const;
   /// Throws the error of a file that ends within a frame.
   [[noreturn]] void refuse_end() const;
 

@@ -107,14 +107,19 @@ void require_regular(const std::filesystem::path& file, const char* flag) {
                   "give the name of a file, not of a device or a pipe");
 }
 
-TrajectoryFormat trajectory_format(const std::filesystem::path& file, const char* flag) {
-  require_regular(file, flag);
+std::optional<TrajectoryFormat> find_trajectory_format(const std::filesystem::path& file) {
   const std::string extension = file.extension();
   if (extension == ".xyz" || extension == ".extxyz") return TrajectoryFormat::ExtXyz;
   if (extension == ".lammpstrj" || extension == ".dump") return TrajectoryFormat::LammpsDump;
   if (extension == ".csv") return TrajectoryFormat::Csv;
   if (extension == ".gsd") return TrajectoryFormat::Gsd;
   if (extension == ".h5md") return TrajectoryFormat::H5md;
+  return std::nullopt;
+}
+
+TrajectoryFormat trajectory_format(const std::filesystem::path& file, const char* flag) {
+  require_regular(file, flag);
+  if (const auto format = find_trajectory_format(file)) return *format;
   throw UserError({flag, 0, 0}, file.string() + " has no extension of a trajectory",
                   "give a name that ends in .xyz, .lammpstrj, .csv, .gsd or .h5md");
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,10 @@ enum class TrajectoryFormat {
 /// Throws UserError that names `flag` for a device or a pipe.
 void require_regular(const std::filesystem::path& file, const char* flag);
 
-/// The format of a file extension. Throws UserError that names `flag` for other extensions, and for
+/// The format of a file extension; absent: of no trajectory.
+std::optional<TrajectoryFormat> find_trajectory_format(const std::filesystem::path& file);
+
+/// The same. Throws UserError that names `flag` for other extensions, and for
 /// a device or a pipe, which cannot be continued.
 TrajectoryFormat trajectory_format(const std::filesystem::path& file, const char* flag);
 

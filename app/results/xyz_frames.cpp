@@ -38,6 +38,21 @@ int quantity_of(const std::string& name) {
   return found == kNames.end() ? kIgnored : found->second;
 }
 
+constexpr int kMostColumns = 1'000'000;  // of a line; descriptors have hundreds
+
+// The number of columns of a property. Quantities that are not read may have any.
+int width_of(const TextLines& lines, int quantity, const std::string& property,
+             const std::string& word) {
+  const int columns = whole_number<int>(word).value_or(0);
+  if (quantity == kIgnored) {
+    if (columns >= 1) return columns;
+    lines.refuse(property + " has no positive number of columns",
+                 "give at most " + std::to_string(kMostColumns));
+  }
+  if (columns == (quantity >= kRadius ? 1 : 3)) return columns;
+  lines.refuse(property + " has a wrong width", "give vectors three columns, and numbers one");
+}
+
 std::vector<XyzProperty> properties_of(const TextLines& lines, const XyzHead& head) {
   std::vector<std::string> parts;
   const std::string text = head.has("properties") ? head.text("properties") : "species:S:1:pos:R:3";
@@ -52,24 +67,27 @@ std::vector<XyzProperty> properties_of(const TextLines& lines, const XyzHead& he
   }
   std::vector<XyzProperty> properties;
   std::set<std::string> names;
+  int all_columns = 0;
   for (std::size_t k = 0; k < parts.size(); k += 3) {
     const std::string& name = parts[k];
-    const std::string said = "the property " + in_quotes(name.substr(0, 40));
+    const std::string said = "the property " + quoted_start(name);
     const int quantity = quantity_of(name);
-    const auto columns = whole_number<int>(parts[k + 2]);
-    const int wanted = quantity == kIgnored ? 0 : quantity >= kRadius ? 1 : 3;
-    if (!columns || *columns < 1 || *columns > 100 || (wanted > 0 && *columns != wanted)) {
-      lines.refuse(said + " has a wrong width", "give vectors three columns, and numbers one");
+    if (name.empty()) lines.refuse("a property has no name", "write NAME:TYPE:COLUMNS");
+    const int columns = width_of(lines, quantity, said, parts[k + 2]);
+    if (columns > kMostColumns - all_columns) {
+      lines.refuse("the properties have more than " + std::to_string(kMostColumns) + " columns",
+                   "remove some of them");
     }
+    all_columns += columns;
     const std::string& type = parts[k + 1];
     if (type.size() != 1 || std::string("SIRL").find(type) == std::string::npos) {
-      lines.refuse(said + " has the type " + in_quotes(type.substr(0, 40)), "give S, I, R or L");
+      lines.refuse(said + " has the type " + quoted_start(type), "give S, I, R or L");
     }
     if (quantity != kIgnored && type != "R" && type != "I") {
       lines.refuse(said + " has the type " + type, "give R for numbers");
     }
     if (!names.insert(name).second) lines.refuse(said + " occurs twice", "remove one of them");
-    properties.push_back({name, type.front(), *columns, quantity});
+    properties.push_back({name, type.front(), columns, quantity});
   }
   return properties;
 }
@@ -116,6 +134,7 @@ class XyzFrames {
     for (std::size_t k = 0; k < 9; ++k) {
       if (k % 4 == 0) frame.box->lengths[k / 4] = lattice[k];
     }
+    frame.box->lines.fill(lines_.number());
     for (std::size_t k = 0; k < 9; ++k) {
       if (k % 4 != 0 && is_tilt(lattice[k], *frame.box)) refuse_tilt(path_, lines_.number());
     }
@@ -128,9 +147,11 @@ class XyzFrames {
 
   ParticleTable table_of_properties() const {
     std::vector<int> columns;
+    std::vector<std::string> names;
     for (const XyzProperty& property : properties_) {
       for (int c = 0; c < property.columns; ++c) {
         columns.push_back(property.quantity == kIgnored ? kIgnored : property.quantity + c);
+        names.push_back(property.name);
       }
     }
     const auto has = [&](int quantity) {
@@ -141,7 +162,7 @@ class XyzFrames {
     }
     const std::vector<int> derived =
         has(kMomentum) ? std::vector<int>{kVx, kVx + 1, kVx + 2} : std::vector<int>();
-    const ParticleTable table(columns, derived);
+    const ParticleTable table(columns, derived, names);
     table.require_state(lines_, choice_, "give the property velo, vel, velocities or momenta");
     return table;
   }
@@ -173,8 +194,8 @@ class XyzFrames {
       for (int c = 0; c < property.columns; ++c) {
         const std::string_view word = words[column++];
         if (has_type(word, property.type)) continue;
-        lines_.refuse(in_quotes(word.substr(0, 40)) + " is not of the type " + property.type +
-                          " of the property " + in_quotes(property.name.substr(0, 40)),
+        lines_.refuse(quoted_start(word) + " is not of the type " + property.type +
+                          " of the property " + quoted_start(property.name),
                       "write a number of this type, or change the type");
       }
     }
@@ -185,8 +206,7 @@ class XyzFrames {
                                                        "true", "false", "TRUE", "FALSE"};
     if (type == 'L') return kTruths.contains(word);
     if (type == 'R') return lines_.number_in(word).has_value();
-    if (type == 'I' && word.starts_with('+')) word.remove_prefix(1);
-    return type == 'S' || whole_number<long long>(word).has_value();
+    return type == 'S' || signed_number<long long>(word).has_value();
   }
 
   std::filesystem::path path_;

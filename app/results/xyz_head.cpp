@@ -21,16 +21,21 @@ static std::string lower_case(std::string text) {
 
 XyzHead::XyzHead(const TextLines& lines) : lines_(lines), rest_(lines.text()) {
   for (skip_blanks(); !rest_.empty(); skip_blanks()) {
+    const bool bare = !rest_.starts_with('"');
     const std::string key = lower_case(taken_key());
     skip_blanks();
     if (!rest_.starts_with('=')) continue;  // a word of a comment
+    if (bare && key.find_first_of("\"'{}[],\\") != key.npos) {
+      lines_.refuse("the key " + quoted_start(key) + " has special characters",
+                    "write it between double quotes");
+    }
     rest_.remove_prefix(1);
     skip_blanks();
     const std::string value = taken_value();
     if (!rest_.empty() && kBlanks.find(rest_.front()) == kBlanks.npos) {
-      lines_.refuse("the value of " + in_quotes(key.substr(0, 40)) + " does not end at its " +
-                        "quote or bracket",
-                    "write a blank behind it");
+      lines_.refuse(
+          "the value of " + quoted_start(key) + " does not end at its " + "quote or bracket",
+          "write a blank behind it");
     }
     if (std::ranges::find(kKeys, key) == kKeys.end()) continue;
     if (!values_.emplace(key, value).second) {
@@ -58,22 +63,25 @@ std::string XyzHead::taken_text(char end) {
   lines_.refuse(std::string("a ") + rest_.front() + " has no " + end, "close it");
 }
 
-// The elements of an array in brackets, without its commas. Arrays may contain arrays.
+// The elements of an array in brackets, which may contain arrays of one dimension.
 std::string XyzHead::taken_array() {
   std::string elements;
-  rest_.remove_prefix(1);
-  while (!rest_.empty() && rest_.front() != ']') {
-    if (rest_.front() == '[') {
-      elements += ' ' + taken_array() + ' ';
-    } else if (rest_.front() == '"' || rest_.front() == '\'') {
-      elements += taken_text(rest_.front());
-    } else {
-      elements += rest_.front();
-      rest_.remove_prefix(1);
+  int depth = 0;
+  do {
+    if (rest_.empty()) lines_.refuse("a [ has no ]", "close it");
+    const char next = rest_.front();
+    if (next == '"' || next == '\'') {
+      elements += taken_text(next);
+      continue;
     }
-  }
-  if (rest_.empty()) lines_.refuse("a [ has no ]", "close it");
-  rest_.remove_prefix(1);
+    if (next == '[' && ++depth > 2) {
+      lines_.refuse("arrays have at most two dimensions",
+                    "write numbers in at most two pairs of brackets");
+    }
+    if (next == ']') --depth;
+    elements += next == '[' || next == ']' ? ' ' : next;
+    rest_.remove_prefix(1);
+  } while (depth > 0);
   return elements;
 }
 
@@ -126,7 +134,7 @@ std::array<bool, 3> XyzHead::truths(const std::string& key) const {
     const std::string word = lower_case(all[k]);
     truths[k] = word == "t" || word == "true" || word == "1";
     if (truths[k] || word == "f" || word == "false" || word == "0") continue;
-    lines_.refuse(in_quotes(all[k].substr(0, 40)) + " is neither true nor false",
+    lines_.refuse(quoted_start(all[k]) + " is neither true nor false",
                   "write, say, " + key + "=\"T T F\"");
   }
   return truths;

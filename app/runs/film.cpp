@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/runs/film_limits.h"
 #include "app/runs/sound_preview.h"
 #include "app/system/interrupt.h"
 #include "engine/checkpoint/archive.h"
@@ -51,15 +52,13 @@ static bool fits(const std::optional<FilmSound>& sound, long next, double fps) {
 
 // Whether a film can have this state: its settings are those of flags, and its next frame is in it.
 static bool makes_sense(const FilmState& state) {
-  constexpr int kMostSamples = 4, kLargestSide = 1 << 20;
-  constexpr double kMostFps = 1000.0;
   const FrameTimes& times = state.times;
   return times.count >= 1 && times.count <= kMostFrames && state.next >= 0 &&
          state.next <= times.count && times.fps >= 1.0 && times.fps <= kMostFps &&
          times.speed > 0.0 && std::isfinite(times.speed) && std::isfinite(times.from) &&
          state.samples >= 1 && state.samples <= kMostSamples &&
          std::min(state.size.width, state.size.height) >= 1 &&
-         std::max(state.size.width, state.size.height) <= kLargestSide && state.shutter >= 0.0 &&
+         std::max(state.size.width, state.size.height) <= kLongestSide && state.shutter >= 0.0 &&
          state.shutter <= 1.0 && state.begin.value_or(0) >= 0 &&
          state.begin.value_or(0) <= times.count && fits(state.sound, state.next, times.fps);
 }

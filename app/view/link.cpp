@@ -115,7 +115,7 @@ SceneText gallery_scene(const std::string& name) {
     return {std::string(file.bytes), std::string(file.name), Origin::Gallery};
   }
   const std::string_view near = near_miss(name, names);
-  throw UserError({kFile}, "there is no scene " + in_quotes(name.substr(0, 40)),
+  throw UserError({kFile}, "there is no scene " + quoted_start(name),
                   near.empty() ? "press G for the gallery" : "try " + in_quotes(near));
 }
 
@@ -156,7 +156,7 @@ LinkedScene read_link(std::string_view fragment) {
     const std::size_t sign = part.find('=');
     const std::string key = part.substr(0, sign);
     if (sign == part.npos) {
-      throw UserError({kFile}, in_quotes(key.substr(0, 40)) + " has no value", "write &KEY=VALUE");
+      throw UserError({kFile}, quoted_start(key) + " has no value", "write &KEY=VALUE");
     }
     const std::string value = part.substr(sign + 1);
     if (key == "seed") {

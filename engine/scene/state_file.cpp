@@ -141,7 +141,7 @@ void Reader<D>::read_header() {
 template <int D>
 double Reader<D>::number_in(const CsvCell& cell) const {
   if (const std::optional<double> number = finite_number(cell.text)) return *number;
-  throw UserError(place_of(cell), in_quotes(cell.text.substr(0, 40)) + " is no finite number",
+  throw UserError(place_of(cell), quoted_start(cell.text) + " is no finite number",
                   "write, say, -0.25 or 1.5e-3");
 }
 

@@ -25,6 +25,11 @@ std::string in_quotes(std::string_view text) {
   return '"' + printable(escaped) + '"';
 }
 
+std::string quoted_start(std::string_view text) {
+  constexpr std::size_t kShown = 40;
+  return in_quotes(text.substr(0, kShown));
+}
+
 std::string in_words(std::string_view name) {
   std::string words(name);
   std::ranges::replace(words, '_', ' ');

@@ -13,6 +13,9 @@ std::string number_text(double number);
 /// The text between double quotes, escaped so that both TOML and JSON read it back.
 std::string in_quotes(std::string_view text);
 
+/// The first 40 characters of a text between double quotes, to show what a message is about.
+std::string quoted_start(std::string_view text);
+
 /// A name of scenes and files for use in sentences: "heat flux x" for "heat_flux_x".
 std::string in_words(std::string_view name);
 

@@ -20,12 +20,13 @@ bool is_at(const FileDescriptor& file, const std::filesystem::path& path);
 /// A file that did not exist before.
 struct NewFile {
   std::filesystem::path path;
-  FileDescriptor file;  ///< open for writing, and locked by flock()
+  FileDescriptor file;  ///< open for writing
 };
 
-/// Creates the empty hidden file .FILE.clatter-NUMBER in the folder of `target`. No other file has
-/// this name. Without a file, `errno` has the reason. The lock shows other runs that the file is in
-/// use. Who writes it through another descriptor, and locks that one, closes this one before.
+/// Creates the empty hidden file .FILE.clatter-NUMBER in the folder of `target`, and locks it by
+/// flock(). No other file has this name. Without a file, `errno` has the reason. The lock shows
+/// other runs that the file is in use. Who writes it through another descriptor, and locks that
+/// one, closes this one before.
 NewFile new_file_beside(const std::filesystem::path& target);
 
 /// Removes the hidden files of new_file_beside() that killed runs have left in a folder: those

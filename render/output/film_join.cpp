@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstring>
 #include <map>
+#include <span>
 #include <sstream>
 
 #include "engine/system/platform.h"
@@ -165,41 +166,43 @@ std::filesystem::path PartsFolder::safe_name(const std::string& file) const {
   return std::filesystem::path(name_while_open(opened, path.string())) / file;
 }
 
-// Joins films by the encoder, without encoding.
+// Joins films by the encoder, without encoding. Throws if the film lacks pictures.
 static void copy_films(const PartsFolder& folder, const std::vector<FilmPart>& parts, double fps,
                        const std::filesystem::path& texts, const std::string& sound,
-                       const MovieFormat& format, const std::filesystem::path& list,
-                       const NewFile& joined, const std::string& encoder) {
+                       const MovieFormat& format, NewFile& list, const NewFile& joined,
+                       const std::string& encoder) {
+  long count = 0;
   std::string entries = "ffconcat version 1.0\n";
   for (const FilmPart& part : parts) {
     entries += fmt::format("file {}\nduration {:.9f}\n",
                            list_entry(folder.safe_name(part.path.filename().string())),
                            static_cast<double>(part.count) / fps);
+    count += part.count;
   }
-  write_file(list, entries);
+  if (!list.file.write_all(std::as_bytes(std::span(entries)))) {
+    throw RunError(list.path.string() + ": " + std::strerror(errno));
+  }
   ChildProcess joiner(joining_command(encoder, format, folder.safe_name(texts.filename().string()),
-                                      sound.empty() ? "" : folder.safe_name(sound), list,
+                                      sound.empty() ? "" : folder.safe_name(sound), list.path,
                                       name_while_open(joined.file, joined.path.string())));
   if (!joiner.wait()) throw RunError(reason_of(joiner));
+  const long found = pictures_in(joined.path, encoder);
+  if (found == count) return;
+  throw RunError(fmt::format("{} has {} of {} pictures; is the disk full?", joined.path.string(),
+                             found, count));
 }
 
 // The encoder would copy the heads of GIFs between their pictures.
 void join_films(const PartsFolder& folder, const std::vector<FilmPart>& parts, double fps,
                 const std::filesystem::path& texts, const std::string& sound,
-                const MovieFormat& format, const std::filesystem::path& list, NewFile& joined,
+                const MovieFormat& format, NewFile& list, NewFile& joined,
                 const std::string& encoder) {
-  long count = 0;
-  for (const FilmPart& part : parts) count += part.count;
   try {
     if (format.muxer == "gif") {
       join_gifs(parts, fps, joined.file);
     } else {
       copy_films(folder, parts, fps, texts, sound, format, list, joined, encoder);
     }
-    const long found = pictures_in(joined.path, encoder);
-    if (found == count) return;
-    throw RunError(fmt::format("{} has {} of {} pictures; is the disk full?", joined.path.string(),
-                               found, count));
   } catch (const RunError&) {
     unlink(joined.path.c_str());
     throw;
@@ -230,9 +233,8 @@ void join_parts(const std::filesystem::path& folder, long count, double fps,
   try {
     const std::vector<FilmPart> parts = complete_parts(folder, format.extension, count, fps);
     // Two tasks that end together write the same film to files of their own.
-    const TemporaryFile list(target);
-    TemporaryFile joined(target);
-    join_films({folder, opened}, parts, fps, parts.back().path, "", format, list.path, joined);
+    TemporaryFile list(target), joined(target);
+    join_films({folder, opened}, parts, fps, parts.back().path, "", format, list, joined);
     rename_synced(joined.path, target);
   } catch (const RunError& error) {
     throw RunError("cannot write " + path.string() + ": " + error.what());

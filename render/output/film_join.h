@@ -19,7 +19,8 @@ std::string with_install_advice(const RunError& error);
 /// The last words of an encoder that failed, or a sentence without them.
 std::string reason_of(const ChildProcess& encoder);
 
-/// Number of pictures that a player finds in a film. -1: the encoder cannot start.
+/// Number of pictures that a player finds in a film. -1: the encoder cannot start, or the file
+/// cannot be read.
 long pictures_in(const std::filesystem::path& film, const std::string& encoder = "ffmpeg");
 
 /// An open folder of film parts.
@@ -34,11 +35,12 @@ struct PartsFolder {
 
 /// Joins films in a folder to one in the file `joined`, without encoding them again. `texts` is a
 /// file with its texts, a metadata file or a film. `sound` is a WAV file in the folder; empty: no
-/// sound. The input of the encoder is written to `list`.
+/// sound. The input of the encoder is written to the empty file `list`. A GIF has no texts and no
+/// sound, and needs no list.
 /// Throws RunError with the reason, also if the film lacks pictures, and then removes `joined`.
 void join_films(const PartsFolder& folder, const std::vector<FilmPart>& parts, double fps,
                 const std::filesystem::path& texts, const std::string& sound,
-                const MovieFormat& format, const std::filesystem::path& list, NewFile& joined,
+                const MovieFormat& format, NewFile& list, NewFile& joined,
                 const std::string& encoder = "ffmpeg");
 
 /// Throws UserError if `path` is a device or a pipe, which a film would replace.

@@ -38,7 +38,7 @@ struct Gif {
   bool whole = false;  // whether the last block is the trailer
 };
 
-unsigned flags_at(std::string_view bytes, std::size_t at) {
+unsigned byte_at(std::string_view bytes, std::size_t at) {
   return static_cast<unsigned char>(bytes[at]);
 }
 
@@ -51,18 +51,18 @@ std::size_t block_size(std::string_view bytes) {
   std::size_t at = 2;
   if (bytes.starts_with(',')) {
     if (bytes.size() < kImage) return 0;
-    at = kImage + palette_bytes(flags_at(bytes, kImageFlags));
+    at = kImage + palette_bytes(byte_at(bytes, kImageFlags));
   } else if (!bytes.starts_with('!')) {
     return 0;
   }
-  while (at < bytes.size() && bytes[at] != '\0') at += 1 + flags_at(bytes, at);
+  while (at < bytes.size() && bytes[at] != '\0') at += 1 + byte_at(bytes, at);
   return at < bytes.size() ? at + 1 : 0;
 }
 
 Gif read_gif(std::string_view bytes) {
   Gif gif;
   if (!bytes.starts_with(kSignature) || bytes.size() < kScreen) return gif;
-  const std::size_t palette = palette_bytes(flags_at(bytes, kScreenFlags));
+  const std::size_t palette = palette_bytes(byte_at(bytes, kScreenFlags));
   if (bytes.size() < kScreen + palette) return gif;
   gif.screen = bytes.substr(0, kScreen);
   gif.palette = bytes.substr(kScreen, palette);
@@ -104,9 +104,9 @@ std::string standalone(const GifPicture& picture, const Gif& gif, int delay) {
   if (bytes.empty()) bytes = std::string("!\xf9\x04\0\0\0\0\0", kControl);
   bytes[kDelay] = static_cast<char>(delay & 0xff);
   bytes[kDelay + 1] = static_cast<char>(delay >> 8);
-  const unsigned flags = flags_at(picture.image, kImageFlags);
+  const unsigned flags = byte_at(picture.image, kImageFlags);
   if (flags & kHasPalette || gif.palette.empty()) return bytes.append(picture.image);
-  const unsigned size = flags_at(gif.screen, kScreenFlags) & kPaletteSize;
+  const unsigned size = byte_at(gif.screen, kScreenFlags) & kPaletteSize;
   bytes += picture.image.substr(0, kImageFlags);
   bytes += static_cast<char>((flags & ~kPaletteSize) | kHasPalette | size);
   return bytes.append(gif.palette).append(picture.image.substr(kImageFlags + 1));
@@ -116,7 +116,7 @@ std::string standalone(const GifPicture& picture, const Gif& gif, int delay) {
 std::string bare_screen(const Gif& gif) {
   std::string bytes(gif.screen);
   bytes[kScreenFlags] =
-      static_cast<char>(flags_at(gif.screen, kScreenFlags) & ~(kHasPalette | kPaletteSize));
+      static_cast<char>(byte_at(gif.screen, kScreenFlags) & ~(kHasPalette | kPaletteSize));
   return bytes;
 }
 

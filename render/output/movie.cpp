@@ -234,6 +234,14 @@ std::vector<FilmPart> Movie::pieces() const {
   return all;
 }
 
+// A new file in the folder of the pieces, whose lock protects it too.
+NewFile Movie::new_file(const std::string& name) {
+  const std::filesystem::path path = folder_ / name;
+  NewFile made{path, open_new(path)};
+  if (!made.file) fail(std::strerror(errno));
+  return made;
+}
+
 void Movie::join() {
   const std::vector<FilmPart> pieces = this->pieces();
   std::vector<PngText> texts = notes_;
@@ -241,12 +249,10 @@ void Movie::join() {
   write_file(folder_ / kTexts, metadata_file(texts));
   require_unchanged(pieces);
   flush();
-  const std::filesystem::path path = folder_ / ("joined" + format_->extension);
-  NewFile joined{path, open_new(path)};
-  if (!joined.file) fail(std::strerror(errno));
+  NewFile list = new_file(kPartList), joined = new_file("joined" + format_->extension);
   try {
     join_films({folder_, held_}, pieces, options_.fps, folder_ / kTexts, sound_ ? kSound : "",
-               *format_, folder_ / kPartList, joined, program_);
+               *format_, list, joined, program_);
   } catch (const RunError& error) {
     fail(error.what());
   }

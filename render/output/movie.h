@@ -54,6 +54,7 @@ class Movie final : public FrameSink {
   std::vector<FilmPart> pieces() const;
   void start_piece();
   void end_piece();
+  NewFile new_file(const std::string& name);
   void join();
   void tidy();
   void require_pictures(const std::filesystem::path& film, long count);

@@ -204,7 +204,7 @@ TEST_CASE("Convert: malformed text files are refused with the line") {
   refused("a.xyz", changed("2\n", "99999999999999999999\n"), {"is no number of particles"});
   refused("a.xyz", changed("2\n", "-1\n"), {"a.xyz:1: \"-1\" is no number of particles"});
   refused("a.xyz", changed("8 0 0", "8 1 0"), {"a.xyz:2: the box is tilted"});
-  refused("a.xyz", changed("8 0 0", "0 0 0"), {"an edge of the box is not a positive number"});
+  refused("a.xyz", changed("8 0 0", "0 0 0"), {"a.xyz:2: the edge of the box along x is 0"});
   refused("a.xyz", changed("Lattice", "Other"), {"a.xyz:2: the box is missing"});
   refused("a.xyz", changed("velo:R:3", "v:R:3"), {"a.xyz:2: the velocities are missing"});
   refused("a.xyz", changed("velo:R:3", "velo:R:9999999999"), {"\"velo\" has a wrong width"});
@@ -265,7 +265,7 @@ TEST_CASE("Convert: no quantity is lost, doubled or invented") {
   std::string deep = dump("x y z vx vy", "1 2 3 0 0\n4 5 6 0 0");
   refused("a.dump", deep.replace(deep.find("\n1\n"), 3, "\n2\n"),
           "the velocities of spheres lack vz");
-  refused("a.dump", dump("x y vx vy vz", "1 2 0 0 3"), "the positions of spheres lack z");
+  refused("a.dump", dump("x y vx vy vz", "1 2 0 0 3"), "a.dump:9: the positions of spheres lack z");
   refused("a.dump", dump("x x y vx vy", "1 1 2 0 0"), "a.dump:9: two columns are x");
   refused("a.dump", dump("x y vx vy diameter", "1 2 0 0 2"),
           "a.dump:10: the diameter is 2 instead of 1");

@@ -167,6 +167,28 @@ TEST_CASE(
   CHECK(hashes(shell, "-i film.mp4").size() == 150 * 33);
 }
 
+TEST_CASE("Film parts: hidden files of a join are locked until the encoder ends") {
+  const Shell shell;
+  write_film_scene(shell);
+  const std::string film =
+      "clatter render scene.toml --size 64x48 --fps 10 --quiet --speed 1 --to 0.4 ";
+  shell.run("mkdir parts locked");
+  for (const std::string part : {"0:2 --out parts/000000.mp4", "2: --out parts/000002.mp4"}) {
+    REQUIRE(shell.run(film + "--frames " + part).code == 0);
+  }
+  // Another run would remove a hidden file without a lock.
+  shell.write("locked/ffmpeg",
+              "#!/bin/sh\ncase \"$*\" in *'-f concat'*) for file in .film.mp4.clatter-*; do\n"
+              "flock -n $file true && echo no lock || echo locked; done >>locks ;; esac\n"
+              "PATH=${PATH#*:} exec ffmpeg \"$@\"\n");
+  shell.run("chmod +x locked/ffmpeg");
+  const Outcome joined =
+      shell.run("PATH=$PWD/locked:$PATH " + film + "--join parts --out film.mp4");
+  CAPTURE(joined.err);
+  CHECK(joined.code == 0);
+  CHECK(shell.read("locks") == "locked\nlocked\n");  // the list and the film
+}
+
 TEST_CASE("Film parts: a lock that is released soon does not refuse a film") {
   const Shell shell;
   write_scene(shell);

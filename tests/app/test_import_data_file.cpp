@@ -84,7 +84,7 @@ TEST_CASE("Data files: what is not read is refused with the line") {
     return text.replace(text.find(from), from.size(), to);
   };
   refused("", {"a.data: the file is empty"});
-  refused(changed("2 atoms", "3 atoms"), {"a.data:15: \"Velocities\" is no"});
+  refused(changed("2 atoms", "3 atoms"), {"a.data:16: this line has 1 column instead of 5"});
   refused(changed("2 atoms", "1 atoms"), {"a.data:14: unknown section \"2 1 5 2.5 0\""});
   refused(changed("xlo xhi", "xlo"), {"a.data:7: unknown line \"-10 10 xlo\" in the header"});
   refused(changed("-10 10 xlo", "10 xlo"), {"a.data:7: xlo xhi has 1 number instead of 2"});
@@ -100,7 +100,8 @@ TEST_CASE("Data files: what is not read is refused with the line") {
   refused(changed("-9 -3 0", "-9 -3"), {"a.data:13: this line has 4 columns instead of 5"});
   refused(changed("-9 -3 0", "-9 -3 x"), {"a.data:13: \"x\" is no finite number"});
   refused(changed("2 -1 0 0", "1 -1 0 0"), {"a.data:19: the atom 1 has two velocities"});
-  refused(changed("\n1 1 0.5 0", ""), {"a.data:18: the file ends within a frame"});
+  refused(changed("\n1 1 0.5 0", ""),
+          {"a.data:18: the file ends within a section; give a complete file"});
   refused(changed("Velocities", "Velocity"), {"a.data:16: unknown section \"Velocity\""});
   refused(kHeader + atoms(" # atomic", "1", ""), {"the section Velocities is missing"});
   refused(kHeader, {"the section Atoms is missing"});
@@ -112,6 +113,60 @@ TEST_CASE("Data files: what is not read is refused with the line") {
   std::string two = changed("1 atom types", "2 atom types") + "\nMasses\n\n1 1\n2 2\n";
   refused(two.replace(two.find("2 1 5"), 5, "2 2 5"), {"a.data:14: masses differ: 1 and 2"});
   refused(good, {"a.data: the file has 1 frame"}, "--frame 1");
+  refused(good, {"--group: a.data is no H5MD file"}, "--group all");
+  refused(changed("1 atom types", "1.5 atom types"),
+          {"a.data:4: \"1.5\" is no number of atom types"});
+  refused(changed("1 atom types\n", ""),
+          {"a.data:12: the header does not say the number of atom types", "1 atom types"});
+  refused(changed("0 bonds", "1 bond bond types"),
+          {"a.data:5: unknown line \"1 bond bond types\""});
+  refused(changed("-0.5 0.5 zlo", "0.5 -25 zlo"),
+          {"a.data:9: the edge of the box along z is -25.5"});
+  refused(kHeader + atoms(" # atomic", "1", " 1e5 0 0") + kVelocities,
+          {"a.data:13: \"1e5\" is no periodic image"});
+}
+
+TEST_CASE("Data files: atom types are numbers") {
+  const Shell shell;
+  std::string two =
+      kHeader + "Masses\n\n1 2.5\n2 2.5\n\n" + atoms(" # atomic", "01", "") + kVelocities;
+  two.replace(two.find("1 atom types"), 12, "2 atom types");
+  shell.write("a.data", two);
+  CHECK(shell.run("clatter convert a.data out.csv").code == 0);
+  // The mass of type 01 is that of type 1.
+  two.replace(two.find("1 2.5"), 5, "1 3.5");
+  two.replace(two.find("2 01 5"), 6, "2 2 5");
+  shell.write("a.data", two);
+  check_refused(shell, "clatter convert a.data out.csv", {"masses differ: 3.5 and 2.5"});
+}
+
+TEST_CASE("Data files: the header counts the rows of sections that are skipped") {
+  const Shell shell;
+  const std::string sections =
+      "\nBonds\n\n1 1 1 2\n2 C-C 2 1\n\nBond Coeffs # harmonic\n\n1 harmonic 80 1.2\n"
+      "\nBodies\n\n1 1 3 6\n4 1 2\n0.5 0 0\n0 0 0\n";
+  std::string header = kHeader;
+  header.replace(header.find("0 bonds"), 7, "2 bonds\n1 bond types\n1 bodies");
+  const std::string good = header + atoms(" # atomic", "1", "") + sections + kVelocities;
+  shell.write("a.data", good);
+  const Outcome converted = shell.run("clatter convert a.data out.csv");
+  CAPTURE(converted.err);
+  CHECK(converted.code == 0);
+  CHECK(shell.read("out.csv") == kDataWant);
+  const auto refused = [&](const std::string& from, const std::string& to,
+                           const std::vector<std::string>& parts) {
+    std::string text = good;
+    text.replace(text.rfind(from), from.size(), to);
+    CAPTURE(text);
+    shell.write("a.data", text);
+    check_refused(shell, "clatter convert a.data out.csv --temperature 1", parts);
+  };
+  refused("Velocities", "velocities", {"unknown section \"velocities\""});
+  refused("Bond Coeffs # harmonic\n\n", "", {"unknown section \"1 harmonic 80 1.2\""});
+  refused("1 harmonic 80 1.2\n", "", {"this line is no row of the section Bond Coeffs"});
+  refused("2 C-C 2 1\n", "", {"this line is no row of the section Bonds"});
+  refused("2 C-C 2 1\n", "2 C-C 2 x\n", {"\"x\" is no number"});
+  refused("4 1 2\n", "4 1 2 3\n", {"a body has too many values"});
 }
 
 }  // namespace clatter

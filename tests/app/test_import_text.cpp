@@ -112,6 +112,59 @@ TEST_CASE("Import: extended XYZ, the head and the columns follow the specificati
   refused(xyz_frame(kLattice, ":vel:R:3:n:I:1", " 0 0 0 1", " 0 0 0 1.5"), "a.xyz:4: \"1.5\"");
   refused(xyz_frame(kLattice, ":vel:R:3:n:L:1", " 0 0 0 T", " 0 0 0 2"), "a.xyz:4: \"2\"");
   refused("2 x" + xyz_frame(kLattice).substr(1), "a.xyz:1: ");
+  refused(xyz_frame(kLattice, ":vel:R:3::R:1", " 0 0 0 1", " 0 0 0 1"),
+          "a.xyz:2: a property has no name");
+  refused(xyz_frame(kLattice + " p[bc=\"F F F\""),
+          "a.xyz:2: the key \"p[bc\" has special characters");
+  refused(xyz_frame("Lattice=\"20 0 0 0 10 0 0 0 -8\""),
+          "a.xyz:2: the edge of the box along z is -8");
+  refused(xyz_frame(kLattice, ":vel:R:3:radius:R:1:radii:R:1", " 0 0 0 .5 .5", " 0 0 0 .5 .5"),
+          "a.xyz:2: the columns radius and radii have one meaning");
+  shell.write("s.xyz", xyz_frame("\"p[bc\"=1 a [comment] " + kLattice));
+  CHECK(state_in(shell, "s.xyz") == want);
+}
+
+TEST_CASE("Import: extended XYZ, arrays have two dimensions, and skipped properties any width") {
+  const Shell shell;
+  // A nested array of any depth is read without recursion.
+  shell.write("a.xyz", xyz_frame("Lattice=" + std::string(300'000, '[')));
+  check_refused(shell, "clatter convert a.xyz out.csv",
+                {"a.xyz:2: arrays have at most two dimensions"});
+  refuse_text(shell, "a.xyz", xyz_frame("Lattice=[[20, 0, 0], [0, 10, 0], [0, 0, 1]"),
+              {"a.xyz:2: a [ has no ]"});
+  std::string descriptor;
+  for (int k = 0; k < 252; ++k) descriptor += " 0.5";
+  shell.write("a.xyz", xyz_frame(kLattice, ":vel:R:3:soap:R:252", " 0.5 0.25 0" + descriptor,
+                                 " -0.5 -0.25 0" + descriptor));
+  CHECK(state_in(shell, "a.xyz") == "x,y,vx,vy\n1,2,0.5,0.25\n5,6,-0.5,-0.25\n");
+  refuse_text(shell, "a.xyz", xyz_frame(kLattice, ":vel:R:3:soap:R:0"),
+              {"a.xyz:2: the property \"soap\" has no positive number of columns"});
+  refuse_text(shell, "a.xyz", xyz_frame(kLattice, ":vel:R:3:soap:R:1000000"),
+              {"a.xyz:2: the properties have more than 1000000 columns"});
+}
+
+TEST_CASE("Import: periodic images along an axis with walls are 0 in each format") {
+  const Shell shell;
+  const std::string images = " 0.5 0.25 0 3 1 0", none = " -0.5 -0.25 0 0 0 0";
+  shell.write("a.xyz",
+              xyz_frame(kLattice + " pbc=\"F T F\"", ":vel:R:3:map_shift:I:3", images, none));
+  REQUIRE(shell.run("clatter convert a.xyz out.xyz").code == 0);
+  CHECK(says(shell.read("out.xyz"), "\nX 1 2 0 0.5 0.25 0 0 1 0 0.5\n"));
+  shell.write("a.dump",
+              dump_frame("ff pp pp\n0 20\n0 10\n0 1", "x y ix iy vx vy", {"1 2 3 1 0.5 0.25"}));
+  REQUIRE(shell.run("clatter convert a.dump out.xyz").code == 0);
+  CHECK(says(shell.read("out.xyz"), "\nX 1 2 0 0.5 0.25 0 0 1 0 0.5\n"));
+}
+
+TEST_CASE("Import: the extension of a trajectory counts more than a name data.NAME") {
+  const Shell shell;
+  shell.write("data.csv", "x,y,vx,vy\n1,2,3,4\n");
+  CHECK(state_in(shell, "data.csv") == "x,y,vx,vy\n1,2,3,4\n");
+  shell.write("data.xyz", xyz_frame(kLattice));
+  const std::string want = "x,y,vx,vy\n1,2,0.5,0.25\n5,6,-0.5,-0.25\n";
+  REQUIRE(shell.run("clatter convert data.xyz data.gsd && gzip data.xyz").code == 0);
+  CHECK(state_in(shell, "data.xyz.gz") == want);
+  CHECK(state_in(shell, "data.gsd") == want);
 }
 
 TEST_CASE("Import: extended XYZ, velocities follow from momenta and masses") {
@@ -164,9 +217,22 @@ TEST_CASE("Import: a LAMMPS dump has scaled, unwrapped or wrapped positions") {
   };
   refused("id x z vx vy", {"1 0 0 0 0"}, "a.dump:9: the positions are missing");
   refused("id x y vx", {"1 0 0 0"}, "a.dump:9: the column vy is missing");
-  refused("id x y ix vx vy", {"1 0 0 0 0 0"}, "a.dump:9: the column image_y is missing");
+  refused("id x y ix vx vy", {"1 0 0 0 0 0"}, "a.dump:9: the column iy is missing");
   refused("id x y vx vy", {"1 0 0 0 0", "1 2 2 0 0"}, "a.dump:11: the particle 1 occurs twice");
   refused("id x y vx vy", {"1.5 0 0 0 0"}, "a.dump:10: the number of the particle is 1.5");
+  // Each column of a position agrees with the others, up to the six digits of LAMMPS.
+  CHECK(state("x xs xu xsu ix y iy vx vy",
+              {"-9 0.05 11 1.05 1 -3 0 1 0", "5 .75 5 .75 0 2.5 0 -1 0"}) == want);
+  CHECK(state("x xs y vx vy", {"-9.0001220703125 0.05 -3 1 0"}) ==
+        "x,y,vx,vy\n0.9998779296875,2,1,0\n");
+  for (const std::vector<std::string>& wrong :
+       std::vector<std::vector<std::string>>{{"x y xu vx vy", "1 2 8 0 0", "1 and 8"},
+                                             {"x y xs vx vy", "1 2 0.5 0 0", "1 and 0"},
+                                             {"x y xu xsu vx vy", "1 2 1 1.5 0 0", "1 and 20"},
+                                             {"x y ix iy xu vx vy", "1 2 1 0 1 0 0", "21 and 1"}}) {
+    refused(wrong[0], {wrong[1]},
+            "a.dump:10: the positions along x contradict each other: " + wrong[2]);
+  }
   // Atoms without an atom map have the number 0.
   CHECK(state("id x y vx vy", {"0 -9 -3 1 0", "0 5 2.5 -1 0"}) == want);
 }
@@ -192,9 +258,28 @@ TEST_CASE("Import: a LAMMPS dump has a box in each form of its header") {
   refused("xy xz yz\n-10 10 0\n-5 5 0\n-0.5 0.5 0",
           "a.dump:5: the kinds of boundaries are missing");
   refused("\n-10 10\n-5 5\n-0.5 0.5", "a.dump:5: the kinds of boundaries are missing");
+  refused("pp pp pp\n-10 10\n-5 5\n0.5 -25", "a.dump:8: the edge of the box along z is -25.5");
+  shell.write("a.dump", dump_frame("pp pp pp\n-10 10\n-5 5\n0 0", columns, {atom}));
+  CHECK(state_in(shell, "a.dump") == "x,y,vx,vy\n1,2,1,0\n");  // disks in a box without depth
   refused("pp pf pp\n-10 10\n-5 5\n-0.5 0.5", "a.dump:5: \"pf\" is no kind of boundaries");
   refused("pp pp pp\n-10 10 0\n-5 5 0\n-0.5 0.5 0", "a.dump:6: this line has 3 words");
-  refused("pp pp pp\n10 -10\n-5 5\n-0.5 0.5", "an edge of the box is not a positive number");
+  refused("pp pp pp\n10 -10\n-5 5\n-0.5 0.5", "a.dump:6: the edge of the box along x is -20");
+}
+
+TEST_CASE("Import: a frame of a LAMMPS dump has each of its items once") {
+  const Shell shell;
+  const std::string good = dump_frame(kBounds, "x y vx vy", {"-9 -3 1 0"});
+  const auto refused = [&](const std::string& from, const std::string& to,
+                           const std::string& part) {
+    std::string text = good;
+    refuse_text(shell, "a.dump", text.replace(text.find(from), from.size(), to), {part});
+  };
+  const std::string step = "ITEM: TIMESTEP\n100\n", count = "ITEM: NUMBER OF ATOMS\n1\n";
+  refused(step, "", "a.dump:7: unexpected line \"ITEM: ATOMS x y vx vy\"; give a text dump");
+  refused(step, step + step, "a.dump:3: the frame has a second \"ITEM: TIMESTEP\"");
+  refused(count, count + count, "a.dump:5: the frame has a second \"ITEM: NUMBER OF ATOMS\"");
+  shell.write("a.dump", good + good);
+  CHECK(state_in(shell, "a.dump") == "x,y,vx,vy\n1,2,1,0\n");
 }
 
 TEST_CASE("Import: particles that stay in a plane are disks") {
@@ -332,6 +417,7 @@ TEST_CASE("Import: a CSV of other programs is read whole, or refused") {
     refuse_text(shell, "a.csv", text, {part});
   };
   refused("particle,x,y,vx,vy\n1,5,6,7,8\n1,1,2,3,4\n", "a.csv:3: the particle 1 occurs twice");
+  refused("particle,x,y,vx,vy\n0,5,6,7,8\n0,1,2,3,4\n", "a.csv:3: the particle 0 occurs twice");
   refused("time,particle,x,y,vx,vy\n0,0,1,2,3,4\n1,0,1,2,3,4\n0,1,5,6,7,8\n1,1,5,6,7,8\n",
           "a.csv:4: the time goes back from 1 to 0");
   refused("x,y,vx,vy,omega_x\n1,2,3,4,5\n", "a.csv:1: the column \"omega_x\" is not one of disks");
@@ -368,7 +454,12 @@ TEST_CASE("Import: text may be compressed by gzip") {
   const std::string whole = shell.read("a.csv.gz");
   shell.write("d.csv.gz", whole.substr(0, whole.size() - 5));
   check_refused(shell, "clatter convert d.csv.gz out.csv",
-                {"d.csv.gz: the compressed file is damaged or cut off"});
+                {"d.csv.gz: the compressed file is damaged or cut off; give a complete file"});
+  // A compressed file is no text without its last newline, whatever its name.
+  REQUIRE(shell.run("gzip -c a.csv >e.csv").code == 0);
+  const Outcome plain_name = shell.run("clatter convert e.csv out.csv");
+  CHECK(plain_name.code == 0);
+  CHECK(plain_name.err.empty());
   check_refused(
       shell,
       "gzip -c a.csv >a.gsd.gz; clatter convert a.gsd.gz out.csv; e=$?; rm a.gsd.gz; exit $e",

@@ -64,6 +64,21 @@ def write_gsd_files():
     half = numpy.sqrt(0.5) * 2 * 0.1 * -1
     turning.particles.angmom = [[0, 0, 0, 2 * 0.1 * 3], [0, 0, half, half]]
     write_gsd("turning.gsd", turning)
+    # The chunks of the log are exact numbers of clatter. Others with defaults are not written.
+    for name, exact in (("position", two), ("velocity", moving), ("inertia", [[0, 0, 3], [0, 0, -1]])):
+        lost = gsd_frame(flat, two, moving, 2)
+        if name == "position":
+            lost.particles.position = None
+            exact = numpy.array(two) + [10, 5, 0]
+        if name == "velocity":
+            lost.particles.velocity = None
+        lost.log["particles/" + name.replace("inertia", "angular_velocity")] = numpy.array(exact, float)
+        write_gsd("lost_" + name + ".gsd", lost)
+    write_gsd("negative.gsd", gsd_frame([20, 10, -8, 0, 0, 0], two, moving, 2))
+    for file, last in (("inertia.gsd", 0), ("nan_inertia.gsd", numpy.nan)):
+        frame = gsd_frame([20, 10, 8, 0, 0, 0], two, moving)
+        frame.particles.moment_inertia = [[0.1, 0.1, 0.1], [last] * 3]
+        write_gsd(file, frame)
 
 
 def element(group, name, value, step, offset=None, **options):
@@ -136,6 +151,33 @@ def write_h5md_files():
         group = particles(file)
         element(group, "position", places, [0, 2, 1])
         element(group, "velocity", speeds, [0, 1, 2])
+    with h5py.File("heavy_ids.h5md", "w") as file:
+        group = particles(file)
+        element(group, "position", places[:1], [0])
+        element(group, "velocity", speeds[:1], [0])
+        element(group, "id", [[9, 4]], [0])
+        group["mass"] = [1.0, 2.5]
+    for name in ("anonymous", "scalar", "line", "undimensioned", "spelled", "open", "overflow"):
+        with h5py.File(name + ".h5md", "w") as file:
+            group = particles(file)
+            element(group, "position", places, [0, 1, 2])
+            element(group, "velocity", speeds, [0, 1, 2])
+            box = group["box"]
+            if name == "anonymous":
+                del file["h5md"]
+            if name == "scalar":
+                file["h5md"].attrs["version"] = 1.5
+            if name == "line":
+                box.attrs["dimension"] = 1
+            if name == "undimensioned":
+                del box.attrs["dimension"]
+            if name == "spelled":
+                box.attrs["dimension"] = "three"
+            if name == "open":
+                box.attrs["boundary"] = numpy.array(["none"] * 3, dtype="S8")
+                del box["edges"]
+            if name == "overflow":  # 2^64 numbers, none of them in the file
+                group.create_dataset("mass", (2**22, 2**22, 2**20), "f8", chunks=(1, 16, 16))
 
 
 write_momenta()

@@ -30,7 +30,12 @@ with gsd.hoomd.open(heavy_gsd_file, mode) as file:
     file.append(frame)
 
 
+def write_head(file):
+    file.create_group("h5md").attrs["version"] = [1, 1]
+
+
 def write_h5md(file):
+    write_head(file)
     group = file.create_group("particles/gas/box")
     group.attrs["dimension"] = 3
     group.attrs["boundary"] = numpy.array([b"periodic", b"none", b"none"])
@@ -49,4 +54,5 @@ with h5py.File(heavy_h5md_file, "w") as file:
     file["particles/gas/mass"] = numpy.array([1, 2.5])
 
 with h5py.File(huge_file, "w") as file:
+    write_head(file)
     file.create_dataset("particles/gas/position/value", (1, 200_000_000, 3))
