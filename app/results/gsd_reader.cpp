@@ -73,9 +73,10 @@ GsdReader::GsdReader(const std::filesystem::path& path)
   const auto text_of = [](const auto& bytes) {
     return std::string(bytes.begin(), std::ranges::find(bytes, '\0'));
   };
-  if (text_of(header.schema) != "hoomd" || header.schema_version >> 16 > 1 ||
+  if (text_of(header.schema) != "hoomd" || header.schema_version >> 16 > 2 ||
       header.file_version >> 16 > 2) {
-    throw UserError({path_.string()}, "the GSD file is not of the schema \"hoomd\", version 0 or 1",
+    throw UserError({path_.string()},
+                    "the GSD file is not of the schema \"hoomd\", versions 0 to 2",
                     "give a trajectory of HOOMD-blue");
   }
   if (header.names_units > size_ / kGsdNameUnit ||
