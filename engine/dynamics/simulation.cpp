@@ -341,11 +341,7 @@ bool Simulation<D>::run_until(double time, std::uint64_t collisions, std::uint64
   while (!stop_request.made()) {
     Timer* timer = due_timer(time);
     const bool kicks = kick_is_due(timer ? timer->next() : time);
-    double stop = next_kick();
-    if (!kicks) {
-      stop = timer ? clock_.relative(timer->times.exactly(timer->count)) : clock_.relative(time);
-      stop = std::max(stop, base_time());  // the digits of a kick at once with it may be later
-    }
+    const double stop = kicks ? next_kick() : clock_.relative(timer ? timer->next() : time);
     if (in_tiles_ && advance_window(stop, collisions, steps, stop_request)) continue;
     const double since = base_time();
     const std::uint64_t before = counts().collisions();
@@ -423,8 +419,8 @@ bool Simulation<D>::is_overdue(double start, double interval, std::uint64_t done
 }
 
 // Times that are equal as doubles are at once: an interval of 0.1 is due three times until 0.3,
-// however the digits beyond double precision compare. Kicks keep all digits, so that they are
-// independent of timers and of ends of runs.
+// however the digits beyond double precision compare. Kicks keep these digits. So neither timers
+// nor ends of runs change the state at a time.
 template <int D>
 typename Simulation<D>::Timer* Simulation<D>::due_timer(double stop) {
   Timer* due = nullptr;
