@@ -39,7 +39,7 @@ class DumpFrames {
         frame.time = lines_.real(next_word());
       } else if (item == "UNITS") {
         lines_.require_next();
-      } else if (item == "NUMBER OF ATOMS") {
+      } else if (item == "NUMBER OF ATOMS" && items.contains("TIMESTEP")) {
         particles = lines_.count(next_word());
       } else if (item.starts_with("BOX BOUNDS ")) {
         corner = read_box(frame);

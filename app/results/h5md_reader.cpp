@@ -191,9 +191,17 @@ H5::DataSet H5mdReader::values_of(const std::string& element) const {
   return particles_.openDataSet(element + "/value");
 }
 
+// Throws unless a dataset has integers, or numbers of IEEE 754.
+void H5mdReader::require_numbers(const H5::DataSet& dataset, const std::string& name) const {
+  if (has_numbers(dataset)) return;
+  refuse("the quantity " + in_quotes(name) + " has no numbers of IEEE 754",
+         "give integers or numbers of single or double precision");
+}
+
 // The steps or times of all rows of an element: a list, or an increment of rows from an offset.
 std::vector<double> H5mdReader::series(const std::string& element, const std::string& name) const {
   const H5::DataSet dataset = particles_.openDataSet(element + '/' + name);
+  require_numbers(dataset, element + '/' + name);
   const std::vector<hsize_t> rows = shape_of(values_of(element)), shape = shape_of(dataset);
   const hsize_t count = rows.empty() ? 0 : rows[0];
   std::vector<double> series;
@@ -304,10 +312,7 @@ std::vector<double> H5mdReader::read_row(const std::string& element, std::size_t
     count[0] = 1;
     shape.erase(shape.begin());
   }
-  if (!has_numbers(dataset)) {
-    refuse("the quantity " + in_quotes(element) + " has no numbers of IEEE 754",
-           "give integers or numbers of single or double precision");
-  }
+  require_numbers(dataset, element);
   std::vector<double> numbers(size_of(element, shape));
   if (moves) offset[0] = row_at(element, frame);
   if (numbers.empty()) return numbers;

@@ -61,6 +61,7 @@ class H5mdReader {
   void require_version() const;
   bool in_time(const std::string& element) const;
   H5::DataSet values_of(const std::string& element) const;
+  void require_numbers(const H5::DataSet& dataset, const std::string& name) const;
   std::vector<double> series(const std::string& element, const std::string& name) const;
   const Steps& steps_of(const std::string& element) const;
   std::optional<std::size_t> sampled_row(const std::string& element, std::size_t frame) const;

@@ -24,7 +24,10 @@ XyzHead::XyzHead(const TextLines& lines) : lines_(lines), rest_(lines.text()) {
     const bool bare = !rest_.starts_with('"');
     const std::string key = lower_case(taken_key());
     skip_blanks();
-    if (!rest_.starts_with('=')) continue;  // a word of a comment
+    if (!rest_.starts_with('=')) {  // a word of a comment
+      if (std::ranges::find(kKeys, key) == kKeys.end()) continue;
+      lines_.refuse("the key " + key + " has no value", "write " + key + "=VALUE");
+    }
     if (bare && key.find_first_of("\"'{}[],\\") != key.npos) {
       lines_.refuse("the key " + quoted_start(key) + " has special characters",
                     "write it between double quotes");
