@@ -61,6 +61,14 @@ void Gui::listen(bool on) {
   session_.listen(on);
 }
 
+// A loudspeaker that fails is closed.
+void Gui::play_sound() {
+  const std::string failure = host_.loudspeaker()->play(session_.frame().played);
+  if (failure.empty()) return;
+  listen(false);
+  session_.tell(failure);
+}
+
 // Reads the scale of the window and loads the fonts for it.
 void Gui::begin() {
   const float size = std::round(letters() * kTextSize * host_.content_scale());
@@ -98,7 +106,7 @@ void Gui::draw() {
     }
     host_.set_title(*title_ + " – clatter");
   }
-  if (session_.listens()) host_.loudspeaker()->play(session_.frame().played);
+  if (session_.listens()) play_sound();
   watch_film();
   use_keys();
   const bool in_lecture = panels_.lecture && !panels_.panels && tools_.plot &&

@@ -143,6 +143,7 @@ class Gui {
   std::vector<std::string> prepared_film();
   void copy_command();
   void film();
+  void play_sound();
   void watch_film();
   void film_screen();
   void add_to_screen_film(int x, int y, Size size);

@@ -33,8 +33,9 @@ class Loudspeaker {
 
   /// Opens the device for sound. Throws RunError if there is none.
   virtual void open() = 0;
-  /// Plays the stretches since the last call, see Frame::played. The device must be open.
-  virtual void play(const std::vector<std::shared_ptr<const PlayedStretch>>& played) = 0;
+  /// Plays the stretches since the last call, see Frame::played. The device must be open. Returns
+  /// why it plays no more; empty: it does.
+  virtual std::string play(const std::vector<std::shared_ptr<const PlayedStretch>>& played) = 0;
   /// Closes the device, and ends the sound.
   virtual void close() = 0;
 };

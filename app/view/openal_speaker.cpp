@@ -89,8 +89,9 @@ void OpenAlSpeaker::open() {
   queue_ = std::make_unique<Queue>();
 }
 
-void OpenAlSpeaker::play(const std::vector<std::shared_ptr<const PlayedStretch>>& played) {
+std::string OpenAlSpeaker::play(const std::vector<std::shared_ptr<const PlayedStretch>>& played) {
   queue_->add(sound_.next(played, queue_->waiting()));
+  return {};
 }
 
 void OpenAlSpeaker::close() {

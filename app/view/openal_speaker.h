@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "app/view/host.h"
@@ -15,7 +16,7 @@ class OpenAlSpeaker final : public Loudspeaker {
   ~OpenAlSpeaker() override;
 
   void open() override;
-  void play(const std::vector<std::shared_ptr<const PlayedStretch>>& played) override;
+  std::string play(const std::vector<std::shared_ptr<const PlayedStretch>>& played) override;
   void close() override;
 
  private:

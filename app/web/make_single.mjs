@@ -14,6 +14,7 @@ let page = text_of('index.html');
 // Takes the parts that match a pattern out of the page. Returns their first groups.
 function taken(pattern) {
   const names = [...page.matchAll(pattern)].map((match) => match[1]);
+  if (!names.length) throw new Error(`index.html has nothing like ${pattern}`);
   page = page.replaceAll(pattern, '');
   return names;
 }

@@ -20,27 +20,30 @@ class Film {
   // Browsers may lack the encoder of a type that they say to support.
   record(stream) {
     const types = ['video/mp4;codecs=avc1.64002A', 'video/webm;codecs=vp9', 'video/webm', 'video/mp4'];
-    const bits_per_pixel = 6;
-    let refusal = 'it has no encoder';
+    const bits_per_pixel_and_second = 6;
+    let reason = 'it has no encoder';
     for (const type of types.filter((type) => MediaRecorder.isTypeSupported(type))) {
       try {
         const recorder = new MediaRecorder(stream, {
-          mimeType: type, videoBitsPerSecond: bits_per_pixel * this.sheet.width * this.sheet.height});
+          mimeType: type,
+          videoBitsPerSecond: bits_per_pixel_and_second * this.sheet.width * this.sheet.height});
         recorder.ondataavailable = (event) => { this.pieces.push(event.data); };
         recorder.onerror = (event) => { this.failure = event.error || 'its encoder failed'; };
         this.stopped = new Promise((done) => { recorder.onstop = done; });
+        this.stopped.then(wake);
         recorder.start();
         this.recorder = recorder;
         this.extension = '.' + type.split(/[/;]/)[1];
         return;
       } catch (error) {
-        refusal = error;
+        reason = error;
       }
     }
-    throw refusal;
+    throw reason;
   }
 
   add(x, y, width, height) {
+    if (this.recorder.state === 'inactive') this.failure ||= 'its encoder has stopped';
     if (this.failure) throw this.failure;
     const {sheet, pen} = this;
     const scale = Math.min(sheet.width / width, sheet.height / height);
@@ -66,6 +69,15 @@ class Speaker {
     this.rate = rate;  // samples per second
     this.context = new AudioContext({sampleRate: rate});
     this.end = 0;      // time of the context at which the last sample ends, in samples
+    const patience = 2000;  // milliseconds
+    this.doubt = setTimeout(() => {
+      if (!this.plays()) tell('The browser plays no sound. Click the page once more, or check its settings.');
+    }, patience);
+  }
+
+  close() {
+    clearTimeout(this.doubt);
+    return this.context.close();
   }
 
   plays() {

@@ -12,21 +12,44 @@ const program = document.getElementById('program');  // of a page in one file: t
 var log = [];       // lines of the script log, with ?log
 var ready = false;  // the program has started
 var asked = 0;      // the request for the next picture; 0: none, the page shows all it knows
+var speaker = null; // open while there is sound
+let over = false;   // the program cannot start, or has stopped
+
+note.textContent = 'Loading …';
+
+// ---- the end ----
+
+// The first reason is the cause of later ones, which are not shown.
+function end_with(reason) {
+  if (!over) note.textContent = reason;
+  over = true;
+  ready = false;
+  cancelAnimationFrame(asked);
+  asked = 0;
+}
+
+function fail(what) {
+  end_with(ready ? `The program stopped: ${what}. Reload the page to start again.`
+                 : `The page could not be loaded: ${what}`);
+}
+
+// A page that cannot start says why.
+function do_not_start(reason) {
+  end_with(reason);
+  Module.instantiateWasm = () => ({});
+}
 
 // ---- drawing: only while something moves, and never in a hidden tab ----
 
 function draw() {
+  if (!ready) return;
   cancelAnimationFrame(asked);
   asked = 0;
-  let moves = false;
   try {
-    moves = Module._clatter_draw() !== 0;
+    if (Module._clatter_draw()) wake();
   } catch (error) {
-    ready = false;
-    note.textContent = 'The program stopped: ' + error + '. Reload the page to start again.';
-    return;
+    fail(error);
   }
-  if (moves) wake();
 }
 
 function wake() {
@@ -46,53 +69,54 @@ function save(name, pieces) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-let film = null;     // the film that is recorded
-let speaker = null;  // open while there is sound
+let film = null;  // the film that is recorded
 
-// Shows a message: in the window, or in its place before it has started.
-function complain(text) {
+// Shows a message in the window.
+function tell(text) {
   queueMicrotask(() => {  // after the present call of the program
-    if (ready) text_of('clatter_tell', text);
-    else note.textContent = text;
+    if (!ready) return;
+    text_of('clatter_tell', text);
     wake();
   });
 }
 
 // An exception would end the program in the middle of a picture. So what the program asks, and a
 // browser may refuse, ends with a message or returns it.
-const refusal_of = (what, error) => `This browser cannot ${what}: ${error}`;
+const reason_of = (what, error) => `This browser cannot ${what}: ${error}`;
 
-async function attempt(what, call) {
+async function or_tell(what, call) {
   try {
     await call();
   } catch (error) {
-    complain(refusal_of(what, error));
+    tell(reason_of(what, error));
   }
 }
 
 // The message; empty: the browser does it.
-function refusal(what, call) {
+function or_reason(what, call) {
   try {
     call();
     return '';
   } catch (error) {
-    return refusal_of(what, error);
+    return reason_of(what, error);
   }
 }
 
 function open_sound(rate) {
-  speaker = new Speaker(rate);
-  speaker.resume();
-  const patience = 2000;  // milliseconds
-  setTimeout(() => {
-    if (speaker && !speaker.plays()) complain('The browser plays no sound. Click the page once more, or check its settings.');
-  }, patience);
+  const opened = new Speaker(rate);
+  try {
+    opened.resume();
+  } catch (error) {
+    opened.close();
+    throw error;
+  }
+  speaker = opened;
 }
 
 function close_sound() {
-  const {context} = speaker;
+  const closed = speaker;
   speaker = null;
-  return context.close();
+  return closed.close();
 }
 
 async function end_film(name) {
@@ -107,29 +131,27 @@ var Module = {
     // Fingers hit areas of 40 pixels of the page.
     target: () => finger.matches ? 40 * devicePixelRatio : 0,
     title: (text) => { document.title = text; },
-    copy: (text) => { attempt('copy a text', () => navigator.clipboard.writeText(text)); },
+    copy: (text) => { or_tell('copy a text', () => navigator.clipboard.writeText(text)); },
     fullScreen: () => {
-      attempt('fill the screen', () => document.fullscreenElement
+      or_tell('fill the screen', () => document.fullscreenElement
           ? document.exitFullscreen() : document.documentElement.requestFullscreen());
     },
-    deliver: (file) => { attempt('save a file', () => save(file, [Module.FS.readFile(file)])); },
+    deliver: (file) => { or_tell('save a file', () => save(file, [Module.FS.readFile(file)])); },
     beginFilm: (width, height) =>
-        refusal('record a film', () => { film = new Film(width, height); }),
+        or_reason('record a film', () => { film = new Film(width, height); }),
     filmExtension: () => film.extension,
-    film: (...place) => refusal('continue the film', () => film.add(...place)),
-    endFilm: (name) => { attempt('record the film', () => end_film(name)); },
-    openSound: (rate) => refusal('play sound', () => open_sound(rate)),
+    film: (...place) => or_reason('continue the film', () => film.add(...place)),
+    endFilm: (name) => { or_tell('record the film', () => end_film(name)); },
+    openSound: (rate) => or_reason('play sound', () => open_sound(rate)),
     waitingSound: () => speaker.waiting(),
-    playSound: (samples) => { attempt('play sound', () => speaker.play(samples)); },
-    closeSound: () => { attempt('end the sound', close_sound); },
+    playSound: (samples) => or_reason('play sound', () => speaker.play(samples)),
+    closeSound: () => { or_tell('end the sound', close_sound); },
     link: (fragment) => location.href.split(/[?#]/)[0] + '#' + fragment,
   },
   print: (line) => { log.push(line); },
   printErr: (line) => { console.warn(line); },
   stdin: () => null,
-  onAbort: (what) => {
-    note.textContent = `${ready ? 'The program stopped' : 'The page could not be loaded'}: ${what}`;
-  },
+  onAbort: (what) => fail(ready ? what : `clatter.wasm: ${what}`),
   onRuntimeInitialized: start,
 };
 
@@ -155,13 +177,14 @@ async function on_drop(event) {
   event.preventDefault();
   const largest = 20e6;  // bytes
   const paths = [];
-  for (const file of event.dataTransfer.files) {
+  // The list is empty after the event.
+  for (const file of [...event.dataTransfer.files]) {
     if (file.size > largest) {
       text_of('clatter_tell', `${file.name} is larger than 20 MB, the limit of a page. Use the program.`);
       continue;
     }
     const path = '/dropped/' + file.name.replace(/[^\w.-]/g, '_');
-    await attempt(`read ${file.name}`, async () => {
+    await or_tell(`read ${file.name}`, async () => {
       Module.FS.writeFile(path, new Uint8Array(await file.arrayBuffer()));
       paths.push(path);
     });
@@ -184,15 +207,12 @@ function until() {
 }
 
 function start() {
+  // A style may be missing before this script can hear of it.
+  if (getComputedStyle(canvas).touchAction !== 'none') return fail('page.css is missing');
   Module.FS.mkdir('/dropped');
   const failure = text_of('clatter_start', fragment(), until(), +query.has('log'));
-  if (failure) {
-    note.textContent = failure;
-    return;
-  }
+  if (failure) return end_with(failure);
   if (query.has('embed')) text_of('clatter_embed', query.get('controls') || '');
-  ready = true;
-  note.textContent = '';
   resize();
   new ResizeObserver(resize).observe(canvas);
   for (const kind of ['pointerdown', 'pointermove', 'pointerup', 'pointercancel']) {
@@ -215,33 +235,31 @@ function start() {
     if (ready && !query.has('embed') && Module._clatter_unsaved()) event.preventDefault();
   });
   canvas.addEventListener('webglcontextlost', () => {
-    ready = false;
-    note.textContent = 'The graphics of this page were lost. Reload it to start again.';
+    end_with('The graphics of this page were lost. Reload it to start again.');
   });
   canvas.focus();
+  ready = true;
+  note.textContent = '';
+  wake();
 }
 
-// A page that cannot start says why.
-function refuse(reason) {
-  note.textContent = reason;
-  Module.instantiateWasm = () => ({});
+// A part that is missing, or an exception before the start.
+function on_error(event) {
+  const part = event.target.src || event.target.href;
+  if (part) do_not_start(`The page could not be loaded: ${part} is missing`);
+  else if (!ready) fail(event.reason || event.message);
 }
-
-function on_missing(event) {
-  const what = event.reason || event.message || `${event.target.src || event.target.href} is missing`;
-  if (!ready) note.textContent = `The page could not be loaded: ${what}`;
-}
-addEventListener('error', on_missing, true);
-addEventListener('unhandledrejection', on_missing);
+addEventListener('error', on_error, true);
+addEventListener('unhandledrejection', on_error);
 
 // Vectors of WebAssembly: a module with the instruction v128.const.
 const with_vectors = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1,
   0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11]);
 if (typeof WebAssembly !== 'object' || !WebAssembly.validate(with_vectors)) {
-  refuse('This browser has no vectors of WebAssembly. Browsers of 2023 and later have.');
+  do_not_start('This browser has no vectors of WebAssembly. Browsers of 2023 and later have.');
 } else if (program) {
   Module.wasmBinary = Uint8Array.from(atob(program.textContent), (sign) => sign.charCodeAt(0));
 } else if (location.protocol === 'file:') {
-  refuse('Browsers load the parts of this page only from a web server. The page in one file, which ' +
+  do_not_start('Browsers load the parts of this page only from a web server. The page in one file, which ' +
       './run web --single makes, needs none.');
 }

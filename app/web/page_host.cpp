@@ -24,8 +24,9 @@ EM_JS(char*, page_film, (int x, int y, int width, int height), {
 EM_JS(void, page_end_film, (const char* name), { Module.page.endFilm(UTF8ToString(name)); })
 EM_JS(char*, page_open_sound, (int rate), { return stringToNewUTF8(Module.page.openSound(rate)); })
 EM_JS(int, page_waiting_sound, (), { return Module.page.waitingSound(); })
-EM_JS(void, page_play_sound, (const std::int16_t* samples, int count), {
-  Module.page.playSound(HEAP16.subarray(samples / 2, samples / 2 + 2 * count));
+EM_JS(char*, page_play_sound, (const std::int16_t* samples, int count), {
+  return stringToNewUTF8(
+      Module.page.playSound(HEAP16.subarray(samples / 2, samples / 2 + 2 * count)));
 })
 EM_JS(void, page_close_sound, (), { Module.page.closeSound(); })
 EM_JS(char*, page_link, (const char* fragment), {
@@ -68,9 +69,10 @@ void PageSpeaker::open() {
   expect_allowed(page_open_sound(kSampleRate));
 }
 
-void PageSpeaker::play(const std::vector<std::shared_ptr<const PlayedStretch>>& played) {
+std::string PageSpeaker::play(const std::vector<std::shared_ptr<const PlayedStretch>>& played) {
   const std::vector<StereoSample> samples = sound_.next(played, page_waiting_sound());
-  if (!samples.empty()) page_play_sound(samples.front().data(), static_cast<int>(samples.size()));
+  if (samples.empty()) return {};
+  return taken(page_play_sound(samples.front().data(), static_cast<int>(samples.size())));
 }
 
 void PageSpeaker::close() {

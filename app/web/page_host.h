@@ -18,7 +18,7 @@ class PageRecorder final : public ScreenRecorder {
 class PageSpeaker final : public Loudspeaker {
  public:
   void open() override;
-  void play(const std::vector<std::shared_ptr<const PlayedStretch>>& played) override;
+  std::string play(const std::vector<std::shared_ptr<const PlayedStretch>>& played) override;
   void close() override;
 
  private:

@@ -99,9 +99,10 @@ std::optional<std::filesystem::path> group_in(const Hierarchy& hierarchy,
     if (names == 0 || end == line.npos) continue;
     Words own = split(line.substr(names, end - names), ',');
     if (own.empty()) own = {""};
-    if (std::ranges::find_first_of(own, hierarchy.controllers) != own.end()) {
-      return line.substr(end + 1);
-    }
+    const bool is_own = std::ranges::any_of(hierarchy.controllers, [&](const std::string& name) {
+      return std::ranges::find(own, name) != own.end();
+    });
+    if (is_own) return line.substr(end + 1);
   }
   return std::nullopt;
 }

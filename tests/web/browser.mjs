@@ -5,9 +5,7 @@ import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
 import {createServer} from 'node:http';
 import {tmpdir} from 'node:os';
 import {extname, join, normalize} from 'node:path';
-import {sleep, start, Tab} from './tab.mjs';
-
-export {sleep};
+import {Questions, start, Tab} from './tab.mjs';
 
 const kinds = {'.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css',
                '.wasm': 'application/wasm'};
@@ -52,9 +50,8 @@ export class Browser extends Tab {
       '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
       '--remote-debugging-pipe', `--user-data-dir=${browser.profile}`, 'about:blank',
     ], ['ignore', 'ignore', 'ignore', 'pipe', 'pipe']);
-    browser.answers = new Map();
+    browser.questions = new Questions(browser.process, browser.process.stdio[3]);
     browser.told = [];
-    browser.sent = 0;
     browser.listen();
     const {targetInfos} = await browser.send('Target.getTargets');
     const {targetId} = targetInfos.find((target) => target.type === 'page');
@@ -71,20 +68,17 @@ export class Browser extends Tab {
       const messages = text.split('\0');
       text = messages.pop();
       for (const message of messages.map((one) => JSON.parse(one))) {
-        const answer = this.answers.get(message.id);
-        this.answers.delete(message.id);
-        if (!answer) this.told.push(message);
-        else if (message.error) answer.reject(new Error(JSON.stringify(message.error)));
-        else answer.resolve(message.result);
+        const error = message.error && JSON.stringify(message.error);
+        if (!this.questions.answer(message.id, error, message.result)) this.told.push(message);
       }
     });
   }
 
   send(method, params = {}) {
-    const id = ++this.sent;
-    const message = {id, method, params, sessionId: this.session};
-    this.process.stdio[3].write(JSON.stringify(message) + '\0');
-    return new Promise((resolve, reject) => this.answers.set(id, {resolve, reject}));
+    return this.questions.ask((id) => {
+      const message = {id, method, params, sessionId: this.session};
+      this.process.stdio[3].write(JSON.stringify(message) + '\0');
+    });
   }
 
   /// The value of an expression in the page, or in its iframe.
@@ -95,13 +89,13 @@ export class Browser extends Tab {
     return result.value;
   }
 
-  /// The context of the scripts in the page's iframe, for value().
-  async iframe() {
-    const {frameTree} = await this.send('Page.getFrameTree');
-    const {id} = frameTree.childFrames[0].frame;
-    return this.told.filter((event) => event.method === 'Runtime.executionContextCreated')
-        .map((event) => event.params.context).filter((context) => context.auxData.frameId === id)
-        .pop().id;
+  /// The context of the scripts in an iframe with a page of this origin, for value() and until().
+  async iframe(origin) {
+    const context = await this.found(
+        () => this.told.filter((event) => event.method === 'Runtime.executionContextCreated')
+            .map((event) => event.params.context).findLast((made) => made.origin === origin),
+        `an iframe of ${origin}`);
+    return context.id;
   }
 
   go(address) {
@@ -117,6 +111,15 @@ export class Browser extends Tab {
     return this.send('Input.dispatchMouseEvent',
                      {type, x, y, buttons, button: buttons || type === 'mouseReleased' ? 'left' : 'none',
                       clickCount: 1});
+  }
+
+  /// Presses a key of the keyboard. `modifiers`: 2 Ctrl, 8 Shift.
+  async press(code, key, modifiers = 0) {
+    const text = key.length === 1 && modifiers !== 2 ? key : '';
+    await this.send('Input.dispatchKeyEvent', {type: 'keyDown', code, key, text, modifiers});
+    await this.settle();
+    await this.send('Input.dispatchKeyEvent', {type: 'keyUp', code, key, modifiers});
+    await this.settle();
   }
 
   /// An event of fingers, each [x, y] in pixels of the page.
@@ -139,7 +142,8 @@ export class Browser extends Tab {
     await this.send('Tracing.start', {transferMode: 'ReportEvents', categories: 'toplevel'});
     await run();
     await this.send('Tracing.end');
-    while (!this.told.some((event) => event.method === 'Tracing.tracingComplete')) await sleep(100);
+    await this.found(() => this.told.some((event) => event.method === 'Tracing.tracingComplete'),
+                     'the tracing is complete');
     const events = this.told.filter((event) => event.method === 'Tracing.dataCollected')
         .flatMap((event) => event.params.value);
     const thread = (event) => `${event.pid}:${event.tid}`;

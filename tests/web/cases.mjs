@@ -11,20 +11,33 @@ const cases = new Map();
 /// Adds a case. Its function may return what it has skipped.
 export const test = (name, run) => cases.set(name, run);
 
-/// Runs the cases whose names contain `chosen`, each after `before`. Returns whether all succeed.
+// Ends the test if a case does not end, long before ctest ends it.
+function limit(name) {
+  const minutes = 15;
+  return setTimeout(() => {
+    console.log(`FAILED: ${name}\n  it has not ended after ${minutes} minutes`);
+    process.exit(1);
+  }, minutes * 60000);
+}
+
+/// Runs the cases whose names contain `chosen`, each after `before`. Returns whether there are some,
+/// and all succeed.
 export async function run_cases(chosen, before) {
+  const names = [...cases.keys()].filter((name) => name.includes(chosen));
+  if (!names.length) console.log(`no case has "${chosen}" in its name`);
   let failed = 0;
-  for (const [name, run] of cases) {
-    if (!name.includes(chosen)) continue;
+  for (const name of names) {
+    const timer = limit(name);
     try {
       await before();
-      console.log(`ok: ${name}${await run() || ''}`);
+      console.log(`ok: ${name}${await cases.get(name)() || ''}`);
     } catch (error) {
       ++failed;
       console.log(`FAILED: ${name}\n  ${error.stack}`);
     }
+    clearTimeout(timer);
   }
-  return failed === 0;
+  return names.length > 0 && failed === 0;
 }
 
 const scratch_folder = mkdtempSync(join(tmpdir(), 'clatter-page-'));
@@ -52,6 +65,14 @@ export function program_hash(scene, time, ...words) {
   return JSON.parse(stdout).state_hash;
 }
 
+/// State hashes of `clatter measure SCENE --until TIME --seed 1`. The second scene is of spheres. The
+/// third one uses logarithms, sines and cosines.
+export const kHashes = [
+  ['vibrated', 20, '5ca4f7af577a3f59'],
+  ['spheres_vibrated', 2, 'afb45d9a721cd9d6'],
+  ['rough_driven', 5, 'b964a16b1fee4b1a'],
+];
+
 /// Keeps the next downloads in the page instead: saved has [name, Blob].
 export const keep_downloads = (tab) => tab.value(`void (window.saved = [], window.blob = null,
     URL.createObjectURL = (made) => { blob = made; return '#'; },
@@ -68,13 +89,14 @@ export async function saved_file(tab, number = 0) {
   return [name, Buffer.from(text.split(',')[1], 'base64')];
 }
 
-/// Drops files on the page, each [name, bytes].
+/// Drops files on the page, each [name, bytes]. As in a real drop, the list is empty after the event.
 export const drop = (tab, ...files) => tab.value(`(() => {
   const data = new DataTransfer();
   for (const [name, text] of ${JSON.stringify(files.map(([name, bytes]) => [name, Buffer.from(bytes).toString('base64')]))}) {
     data.items.add(new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], name));
   }
   dispatchEvent(new DragEvent('drop', {dataTransfer: data, cancelable: true}));
+  data.items.clear();
 })()`);
 
 /// The path of the first of these programs that is installed; undefined: none.

@@ -2,10 +2,9 @@
 
 import assert from 'node:assert/strict';
 import {writeFileSync} from 'node:fs';
-import {sleep} from './browser.mjs';
 import {drop, execute, has_ffmpeg, keep_downloads, program, program_hash, saved_file, scratch, test}
   from './cases.mjs';
-import {browser, complaints, drag, host, open, press, scroll_to} from './in_chromium.mjs';
+import {browser, drag, host, open, scroll_to, server, take_complaints} from './in_chromium.mjs';
 
 // ---- embedded ----
 
@@ -13,17 +12,17 @@ test('an embedded gas has its chosen controls alone, in an iframe of another ori
   const controls = 'play,sound,particles.restitution,walls.left.drive_speed';
   await browser.open(`${host.address}frame.html?embed&log&controls=${controls}#vibrated`,
                      `document.querySelector('iframe')?.contentDocument === null`);
-  const inside = async (expression) => browser.value(expression, await browser.iframe());
+  const inside = await browser.iframe(new URL(server.address).origin);
   const pictures = `log.filter((line) => line.includes('"event":"picture"')).length`;
-  while (!await inside(`document.title.includes('Vibrated') && ${pictures} > 20`)) await sleep(20);
-  const names = await inside(
+  await browser.until(`document.title.includes('Vibrated') && ${pictures} > 20`, inside);
+  const names = await browser.value(
       `log.map((line) => JSON.parse(line)).filter((event) => event.event === 'widget')
-      .map((event) => event.name)`);
+      .map((event) => event.name)`, inside);
   for (const name of controls.split(',')) assert.ok(names.includes(name), `no ${name}`);
   for (const name of ['gallery', 'reset', 'particles.count', 'walls.right.drive_speed']) {
     assert.ok(!names.includes(name), name);
   }
-  assert.deepEqual(complaints(), []);
+  assert.deepEqual(take_complaints(), []);
 });
 
 test('an unknown control of an embedded gas is named with a suggestion', async () => {
@@ -99,8 +98,6 @@ test('a dropped scene opens, and so does a dropped picture', async () => {
   await drop(browser, [name, picture]);
   await browser.until_last('status', 'e.particles === 17');
   assert.equal((await browser.last('open')).title, 'Own');
-  await drop(browser, ['wrong.toml', 'box.size = "wide"']);
-  await browser.until_last('message', 'e.text.includes("box.size")');
 });
 
 test('a saved scene with a start state is two files, which the page and the program open again', async () => {
@@ -110,16 +107,16 @@ test('a saved scene with a start state is two files, which the page and the prog
   await keep_downloads(browser);
   await drag('box.size.x', 0.6);  // the gas adapts and is the start of another scene
   const start = await browser.halted_where('e.time === 0');
-  await press('KeyS', 's', ctrl);
+  await browser.press('KeyS', 's', ctrl);
   const files = [await saved_file(browser, 0), await saved_file(browser, 1)];
   assert.deepEqual(files.map(([name]) => name), ['clatter-1.csv', 'clatter-1.toml']);
   await open('cradle', '&until=0');
   await drop(browser, ...files);
   await browser.until_last('status', 'e.particles > 10');
-  await press('Space', ' ');
-  await press('Home', 'Home');
+  await browser.press('Space', ' ');
+  await browser.press('Home', 'Home');
   assert.equal((await browser.halted_where('e.particles > 10 && e.time === 0')).hash, start.hash);
-  await press('Period', ':', shift);
+  await browser.press('Period', ':', shift);
   const stepped = await browser.halted_where('e.particles > 10 && e.collisions === 1');
   if (!program) return ' (partly skipped: needs a build of the program)';
   for (const [name, bytes] of files) writeFileSync(scratch(name), bytes);

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import {test} from './cases.mjs';
-import {browser, complaints, open} from './in_chromium.mjs';
+import {browser, open, take_complaints} from './in_chromium.mjs';
 
 // A page on a small telephone with two pixels of the device per pixel.
 async function as_telephone(run) {
@@ -32,12 +32,6 @@ async function swipe(...lines) {
 
 const focused = () => browser.value('document.activeElement.id');
 
-async function press_enter() {
-  await browser.send('Input.dispatchKeyEvent', {type: 'keyDown', code: 'Enter', key: 'Enter'});
-  await browser.settle();
-  await browser.send('Input.dispatchKeyEvent', {type: 'keyUp', code: 'Enter', key: 'Enter'});
-}
-
 test('a telephone has one sheet at a time, with areas for fingers', () => as_telephone(async () => {
   await open('vibrated', '&until=1');
   await browser.halted_where('e.time === 1');
@@ -61,7 +55,7 @@ test('a telephone has one sheet at a time, with areas for fingers', () => as_tel
   const [x, y] = await browser.middle_of('sheet.close');
   await swipe([[x, y], [x, y + 100]]);
   assert.deepEqual(await viewport(), whole);
-  assert.deepEqual(complaints(), []);
+  assert.deepEqual(take_complaints(), []);
 }));
 
 test('a finger drags a slider along x, and scrolls the sheet along y', () => as_telephone(async () => {
@@ -107,7 +101,7 @@ test('a touched field of text shows the keyboard of the screen', () => as_teleph
   await browser.send('Input.insertText', {text: 'l'});
   await browser.value(`(keys.setSelectionRange(100, 105), document.execCommand('delete'))`);
   await browser.settle();
-  await press_enter();
+  await browser.press('Enter', 'Enter');
   await browser.until_last('open', `JSON.stringify(e).includes('Haff')`);
 }));
 
@@ -118,20 +112,27 @@ test('a touched number is typed on the keyboard of the screen', () => as_telepho
   assert.equal(await focused(), 'keys');
   await browser.send('Input.insertText', {text: '0.55'});
   await browser.settle();
-  await press_enter();
+  await browser.press('Enter', 'Enter');
   await browser.until_last('status', 'e.restitution === 0.55');
 }));
 
 test('after many taps a gas that plays has one picture at a time', () => as_telephone(async () => {
   await open('vibrated');
   for (let k = 0; k < 5; ++k) await browser.tap_at(180, 300);
-  const share = await browser.value(`new Promise((done) => {
-    const drawn = () => log.filter((line) => line.includes('"event":"picture"')).length;
-    const before = drawn(), shown = 30;
-    let left = shown;
-    (function next() { if (left--) requestAnimationFrame(next); else done((drawn() - before) / shown); })();
-  })`);
+  const share = await browser.picture_share();
   assert.ok(share < 1.2, `${share} pictures of the page per picture of the browser`);
+}));
+
+test('after the graphics were lost a tap draws nothing, and the reason stays', () => as_telephone(async () => {
+  await open('vibrated');
+  await browser.value(`void canvas.getContext('webgl2').getExtension('WEBGL_lose_context').loseContext()`);
+  const reason = await browser.until('note.textContent');
+  assert.match(reason, /graphics of this page were lost/);
+  const drawn = (await browser.events('picture')).length;
+  await browser.tap_at(180, 300);
+  await browser.value(`tell('later')`);
+  assert.equal((await browser.events('picture')).length, drawn);
+  assert.equal(await browser.value('note.textContent'), reason);
 }));
 
 // The last test with fingers: after it, Chromium delivers no single touch to the next page.

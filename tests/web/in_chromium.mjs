@@ -15,14 +15,11 @@ export const browser = await Browser.start(chromium);
 await browser.resize(1280, 720);
 
 /// Opens a scene by the fragment of a link, with the script log.
-export async function open(fragment, query = '') {
-  await browser.open(`${server.address}?log${query}#${fragment}`);
-  await browser.until_last('status', 'true');
-}
+export const open = (...link) => browser.open_scene(server.address, ...link);
 
 /// Errors of the browser since the last call: exceptions, and what it logs, such as errors of WebGL
 /// and breaches of the Content-Security-Policy.
-export function complaints() {
+export function take_complaints() {
   const found = browser.told.filter((event) =>
       event.method === 'Runtime.exceptionThrown' || event.method === 'Log.entryAdded');
   browser.told.length = 0;
@@ -38,15 +35,6 @@ export async function drag(widget, share) {
   await browser.mouse('mouseMoved', x + share * width, y + height / 2, 1);
   await browser.settle();
   await browser.mouse('mouseReleased', x + share * width, y + height / 2);
-  await browser.settle();
-}
-
-/// Presses a key of the keyboard. `modifiers`: 2 Ctrl, 8 Shift.
-export async function press(code, key, modifiers = 0) {
-  const text = key.length === 1 && modifiers !== 2 ? key : '';
-  await browser.send('Input.dispatchKeyEvent', {type: 'keyDown', code, key, text, modifiers});
-  await browser.settle();
-  await browser.send('Input.dispatchKeyEvent', {type: 'keyUp', code, key, modifiers});
   await browser.settle();
 }
 

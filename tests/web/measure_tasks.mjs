@@ -13,10 +13,7 @@ const [folder, what, option] = process.argv.slice(2);
 const server = await serve(folder);
 let browser;
 
-const open = async (fragment, query = '') => {
-  await browser.open(`${server.address}?log${query}#${fragment}`);
-  await browser.until_last('status', 'true');
-};
+const open = (...link) => browser.open_scene(server.address, ...link);
 
 async function longest_tasks(run) {
   if (option === '--without-drawing') await browser.without_drawing();
@@ -24,12 +21,6 @@ async function longest_tasks(run) {
   const longest = (kind) =>
       tasks.map((task) => task[kind]).sort((a, b) => b - a).slice(0, 3).map(Math.round).join(' ');
   return `longest ${longest('wall')}, processor time ${longest('processor')}`;
-}
-
-async function press(code, key, modifiers = 0) {
-  for (const type of ['keyDown', 'keyUp']) {
-    await browser.send('Input.dispatchKeyEvent', {type, code, key, text: key.length === 1 ? key : '', modifiers});
-  }
 }
 
 const measurements = {
@@ -63,14 +54,14 @@ const measurements = {
     const shift = 8;
     await open('vibrated&particles.count=100000&box.size=[340.0,400.0]&view.speed=5');
     await browser.until_last('status', 'e.collisions > 1000000');
-    await press('Space', ' ');
+    await browser.press('Space', ' ');
     const head = await browser.halted_where('true');
     return longest_tasks(async () => {
-      await press('Home', 'Home');
+      await browser.press('Home', 'Home');
       await browser.halted_where('e.time === 0');
-      await press('End', 'End');
+      await browser.press('End', 'End');
       await browser.halted_where(`e.hash === '${head.hash}'`);
-      await press('Comma', ';', shift);
+      await browser.press('Comma', ';', shift);
       await browser.halted_where(`e.time < ${head.time}`);
       await browser.click('viewport');
       await browser.idle();

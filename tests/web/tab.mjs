@@ -18,29 +18,70 @@ export function start(program, words, stdio = 'ignore', env = process.env) {
     }
   };
   process.on('exit', kill);
+  started.has_ended = () => started.exitCode !== null || started.signalCode !== null;
   started.end = () => new Promise((done) => {
     started.on('exit', done);
     kill();
-    if (started.exitCode !== null || started.signalCode) done();
+    if (started.has_ended()) done();
   });
   return started;
 }
 
+/// Questions to a browser, by their numbers. They fail when the browser ends, or its `channel`.
+export class Questions {
+  constructor(browser, channel) {
+    this.browser = browser;
+    this.open = new Map();
+    this.last = 0;
+    browser.on('exit', () => this.fail());
+    for (const event of ['error', 'close']) channel.on(event, () => this.fail());
+  }
+
+  fail() {
+    for (const {reject} of this.open.values()) reject(new Error('the browser has ended'));
+    this.open.clear();
+  }
+
+  /// Sends a question by its number. Resolves to the answer.
+  ask(send) {
+    return new Promise((resolve, reject) => {
+      this.open.set(++this.last, {resolve, reject});
+      if (this.browser.has_ended()) this.fail();
+      else send(this.last);
+    });
+  }
+
+  /// Takes an answer, or the text of an error. Returns whether there was a question.
+  answer(number, error, result) {
+    const question = this.open.get(number);
+    this.open.delete(number);
+    if (error) question?.reject(new Error(error));
+    else question?.resolve(result);
+    return question !== undefined;
+  }
+}
+
 /// A tab. A class of a browser adds: value(expression) of the page, go(address), mouse(type, x, y,
-/// buttons) and touch(type, ...points) with the types of events of Chromium's DevTools protocol,
-/// picture() as PNG, and stop().
+/// buttons) and touch(type, ...points) with the types of events of Chromium's DevTools protocol, and
+/// stop().
 export class Tab {
-  /// Waits until an expression of the page is true, and returns its value. The number of questions
-  /// is limited, for pages that have failed. On a busy machine they take longer.
-  async until(expression) {
+  /// Waits until a function finds something, and returns it. The number of questions is limited, for
+  /// pages that have failed. On a busy machine they take longer.
+  async found(find, what) {
     const most = 6000;
     for (let asked = 0; asked < most; ++asked) {
-      const value = await this.value(`(() => { try { return ${expression}; } catch { return false; } })()`);
+      const value = await find();
       if (value) return value;
       await sleep(20);
     }
     const note = await this.value(`document.getElementById('note')?.textContent`);
-    throw new Error(`it does not hold: ${expression}; the page says "${note}"`);
+    throw new Error(`it does not hold: ${what}; the page says "${note}"`);
+  }
+
+  /// Waits until an expression of the page, or of its iframe, is true, and returns its value.
+  until(expression, context = undefined) {
+    const tried = `(() => { try { return ${expression}; } catch { return false; } })()`;
+    return this.found(() => this.value(tried, context), expression);
   }
 
   /// Opens an address and waits until `state` holds in the page.
@@ -53,12 +94,41 @@ export class Tab {
     await this.until(state);
   }
 
+  /// Opens the scene of a link, with the script log.
+  async open_scene(page, fragment, query = '') {
+    await this.open(`${page}?log${query}#${fragment}`);
+    await this.until_last('status', 'true');
+  }
+
   /// Waits until the page has drawn this number of pictures, or shows all it knows.
   pictures(count) {
     return this.value(`new Promise((done) => {
       let left = ${count};
       (function next() { if (!asked || !left--) done(true); else requestAnimationFrame(next); })();
     })`);
+  }
+
+  /// Pictures of the page per picture of the browser.
+  picture_share() {
+    return this.value(`new Promise((done) => {
+      const drawn = () => log.filter((line) => line.includes('"event":"picture"')).length;
+      const before = drawn(), shown = 30;
+      let left = shown;
+      (function next() { if (left--) requestAnimationFrame(next); else done((drawn() - before) / shown); })();
+    })`);
+  }
+
+  /// The number of colours in a place of the page: left, top, width and height.
+  colours_in(place) {
+    return this.value(`(() => {
+      const [left, top, width, height] =
+          ${JSON.stringify(place)}.map((length) => Math.round(length * devicePixelRatio));
+      const pixels = new Uint8Array(4 * width * height);
+      const gl = canvas.getContext('webgl2');
+      Module._clatter_draw();
+      gl.readPixels(left, canvas.height - top - height, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+      return new Set(new Uint32Array(pixels.buffer)).size;
+    })()`);
   }
 
   /// Waits until the pictures have the input so far. The panels need four of them after an event.

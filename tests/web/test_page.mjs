@@ -6,10 +6,10 @@ import './window_cases.mjs';
 import './finger_cases.mjs';
 import './file_cases.mjs';
 import './large_cases.mjs';
-import {browser, chosen, complaints, host, server} from './in_chromium.mjs';
+import {browser, chosen, host, server, take_complaints} from './in_chromium.mjs';
 
 try {
-  process.exitCode = await run_cases(chosen, complaints) ? 0 : 1;
+  process.exitCode = await run_cases(chosen, take_complaints) ? 0 : 1;
 } finally {
   await browser.stop();
   server.close();

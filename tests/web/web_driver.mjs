@@ -5,7 +5,7 @@ import {existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node
 import {connect, createServer} from 'node:net';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
-import {sleep, start, Tab} from './tab.mjs';
+import {Questions, sleep, start, Tab} from './tab.mjs';
 
 /// A browser with one tab. A class of a browser adds: command(method, path, name, parameters), the
 /// command as HTTP and by its name; has_touch; and stop().
@@ -54,11 +54,6 @@ class DrivenTab extends Tab {
     return this.act('touch', {touchStart: [to, {type: 'pointerDown', button: 0}], touchMove: [to],
                               touchEnd: [{type: 'pointerUp', button: 0}]}[type]);
   }
-
-  async picture() {
-    const text = await this.command('GET', '/screenshot', 'TakeScreenshot', {full: false, hash: false});
-    return Buffer.from(text, 'base64');
-  }
 }
 
 /// Firefox. It needs a display: without one it has no WebGL 2.
@@ -72,12 +67,11 @@ export class Firefox extends DrivenTab {
                         'ignore', {...process.env, HOME: tab.profile});
     const port_file = join(tab.profile, 'MarionetteActivePort');
     while (!existsSync(port_file) || !readFileSync(port_file, 'utf8')) {
-      if (tab.process.exitCode !== null) throw new Error('Firefox has ended');
+      if (tab.process.has_ended()) throw new Error('Firefox has ended');
       await sleep(50);
     }
-    tab.answers = new Map();
-    tab.sent = 0;
     tab.socket = connect(Number(readFileSync(port_file, 'utf8')), '127.0.0.1');
+    tab.questions = new Questions(tab.process, tab.socket);
     tab.listen();
     await tab.command('', '', 'NewSession', {capabilities: {alwaysMatch: {}}});
     await tab.command('', '', 'SetTimeouts', {script: 600000});
@@ -96,19 +90,17 @@ export class Firefox extends DrivenTab {
         bytes = bytes.subarray(after);
         if (!Array.isArray(message)) continue;
         const [, id, error, result] = message;
-        const {resolve, reject} = this.answers.get(id);
-        this.answers.delete(id);
-        if (error) reject(new Error(`${error.error}: ${error.message}`));
-        else resolve(result && 'value' in result ? result.value : result);
+        this.questions.answer(id, error && `${error.error}: ${error.message}`,
+                              result && 'value' in result ? result.value : result);
       }
     });
   }
 
   command(method, path, name, parameters) {
-    const id = ++this.sent;
-    const text = JSON.stringify([0, id, `WebDriver:${name}`, parameters]);
-    this.socket.write(`${Buffer.byteLength(text)}:${text}`);
-    return new Promise((resolve, reject) => this.answers.set(id, {resolve, reject}));
+    return this.questions.ask((id) => {
+      const text = JSON.stringify([0, id, `WebDriver:${name}`, parameters]);
+      this.socket.write(`${Buffer.byteLength(text)}:${text}`);
+    });
   }
 
   async stop() {
@@ -139,7 +131,7 @@ export class WebKit extends DrivenTab {
         tab.address += `/${sessionId}`;
         return tab;
       } catch (error) {
-        if (error.cause?.code !== 'ECONNREFUSED' || tab.process.exitCode !== null) throw error;
+        if (error.cause?.code !== 'ECONNREFUSED' || tab.process.has_ended()) throw error;
         await sleep(50);
       }
     }
@@ -147,8 +139,9 @@ export class WebKit extends DrivenTab {
 
   async command(method, path, name, parameters) {
     const body = method === 'GET' ? undefined : JSON.stringify(parameters);
-    const {value} = await (await fetch(this.address + path, {method, body})).json();
-    if (value?.error) throw new Error(`${value.error}: ${value.message}`);
+    const response = await fetch(this.address + path, {method, body});
+    const {value} = await response.json();
+    if (!response.ok) throw new Error(`${value.error}: ${value.message}`);
     return value;
   }
 
