@@ -6,6 +6,7 @@
 
 #include "app/commands/flag_checks.h"
 #include "app/commands/flags.h"
+#include "app/runs/film_limits.h"
 #include "engine/error.h"
 #include "engine/scene/text.h"
 #include "engine/whole_number.h"

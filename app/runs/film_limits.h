@@ -2,6 +2,8 @@
 
 namespace clatter {
 
+/// Largest number of frames of a film.
+inline constexpr long kMostFrames = 10'000'000;
 /// Most samples per pixel, along each axis.
 inline constexpr int kMostSamples = 4;
 /// Most frames per second of film.

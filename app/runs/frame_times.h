@@ -6,9 +6,6 @@
 
 namespace clatter {
 
-/// Largest number of frames of a film.
-inline constexpr long kMostFrames = 10'000'000;
-
 /// The times of frames: frame k is k/fps seconds after the first one. In the film, the simulation
 /// time passes with `speed` times the factor of the pace.
 struct FrameTimes {

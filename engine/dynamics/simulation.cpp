@@ -440,9 +440,7 @@ bool Simulation<D>::kick_is_due(double stop) const {
 
 template <int D>
 void Simulation<D>::fire(Timer& timer) {
-  const double time = timer.next();
-  ++timer.count;
-  timer.action(time);
+  timer.action(timer.times.of(timer.count++));
 }
 
 template <int D>

@@ -47,9 +47,9 @@ const Arguments kFfv1 = {"-c:v", "ffv1", "-level", "3", "-g", "1", "-slicecrc", 
 // and 0 of 1600 without this thread. mov: ProRes 4444, for editing. VP9: "realtime" is five
 // times as fast as "good", with a fifth more bytes at the same quality. FFV1: lossless, with
 // checksums. GIF: one palette per frame, because one for the whole film needs all frames in memory.
-// Whole frames, because ffmpeg finds changed pixels by their indices in different palettes.
-// A transparent WebM has the matrix of BT.601, because Firefox decodes VP9 with alpha by it
-// whatever the film says.
+// Whole frames, because ffmpeg 5 to 9 leaves out equal indices also where a frame has the palette
+// of the first one and its predecessor another. A transparent WebM has the matrix of BT.601,
+// because Firefox decodes VP9 with alpha by it whatever the film says.
 const std::array<MovieFormat, 5>& formats() {
   static const std::array<MovieFormat, 5> all = {{
       {".mp4",

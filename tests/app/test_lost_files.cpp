@@ -2,6 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <string>
+#include <utility>
+
 #include "tests/support/shell.h"
 
 namespace clatter {
@@ -35,13 +38,18 @@ TEST_CASE("Lost files: a picture that is removed during the film is an error tha
   const Shell shell;
   const std::string film =
       "clatter render vibrated --size 64x64 --to 20 --quiet --out frames --sound";
-  for (const std::string file : {"frames/frame_000003.png", "frames/sound.wav"}) {
+  // Sound that lacks its beginning cannot continue.
+  for (const auto& [file, advice] :
+       {std::pair<std::string, std::string>{"frames/frame_000003.png",
+                                            "continue with --resume frames.checkpoint"},
+        {"frames/sound.wav", ""}}) {
     CAPTURE(file);
     shell.run("rm -rf frames");
     const Outcome outcome = removed_while(shell, film, file);
     CAPTURE(outcome.err);
     CHECK(outcome.code == 1);
     CHECK(says(outcome.err, file));
+    CHECK(says(outcome.err, advice));
   }
 }
 
