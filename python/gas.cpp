@@ -12,7 +12,6 @@
 
 #include "app/results/result_json.h"
 #include "app/runs/measure_run.h"
-#include "app/runs/measurement_hand_over.h"
 #include "app/runs/run.h"
 #include "app/system/process_usage.h"
 #include "engine/checkpoint/archive.h"
@@ -161,66 +160,26 @@ void Gas::change(const std::vector<Override>& laws) {
 
 namespace {
 
-// Ends the work of an observer. Only another simulation has no observers. It has the same bits. If
-// the memory is too small for it, the present simulation continues and needs its observer.
-template <int D, class T>
-void detach(ScheduledRun<D>& run, std::unique_ptr<T> observer) {
-  run.on_change = nullptr;
-  try {
-    run.renew();
-  } catch (...) {
-    static_cast<void>(observer.release());
-  }
-}
-
-// A measurement of a run up to the simulation time `end`, without traces in the run.
-template <int D>
-class MeasurementOf {
- public:
-  MeasurementOf(ScheduledRun<D>& run, const Measure& measure, double end) : run_(run) {
-    measurement_->emplace(run.simulation(), measure, end);
-    run.on_change = [this, &measure, end](Simulation<D>& next) {
-      hand_over(*measurement_, run_.simulation(), next, measure, end);
-    };
-  }
-  MeasurementOf(const MeasurementOf&) = delete;
-  MeasurementOf& operator=(const MeasurementOf&) = delete;
-  ~MeasurementOf() { detach(run_, std::move(measurement_)); }
-
-  Measured result(const StopRequest& stop) { return (*measurement_)->result(stop); }
-
- private:
-  using Measuring = std::optional<Measurement<D>>;
-
-  ScheduledRun<D>& run_;
-  std::unique_ptr<Measuring> measurement_ = std::make_unique<Measuring>();
-};
-
 // Collects the collisions of a run.
 template <int D>
 class Collisions final : private Observer<D> {
  public:
-  Collisions(ScheduledRun<D>& run, bool spins) : spins_(spins) {
-    follow(run.simulation());
-    run.on_change = [this](Simulation<D>& next) { follow(next); };
-  }
+  Collisions(Simulation<D>& simulation, bool spins)
+      : simulation_(simulation), spins_(spins), observation_(simulation, *this) {}
 
   std::vector<double> records;
 
  private:
-  void follow(Simulation<D>& next) {
-    simulation_ = &next;
-    next.add_observer(*this);
-  }
   void on_collision(const PairCollision<D>& collision) override { add(collision); }
   void on_wall(const WallCollision<D>& collision) override { add(collision); }
   template <class Collision>
   void add(const Collision& collision) {
-    append_record<D>(records, simulation_->model(), simulation_->time(), collision, spins_);
+    append_record<D>(records, simulation_.model(), simulation_.time(), collision, spins_);
   }
 
-  const Simulation<D>* simulation_ = nullptr;
+  const Simulation<D>& simulation_;
   bool spins_;
+  Observation<D> observation_;
 };
 
 // Runs until all collisions have occurred, in steps whose lengths double.
@@ -246,17 +205,9 @@ void run_for(ScheduledRun<D>& run, std::uint64_t collisions, const StopRequest& 
 template <int D>
 EventTable collisions_of(ScheduledRun<D>& run, std::uint64_t count, const StopRequest& stop) {
   const bool spins = run.simulation().model().spins;
-  auto collisions = std::make_unique<Collisions<D>>(run, spins);
-  EventTable events{event_quantities(D, spins), {}};
-  try {
-    run_for(run, count, stop);
-    events.records = std::move(collisions->records);
-  } catch (...) {
-    detach(run, std::move(collisions));
-    throw;
-  }
-  detach(run, std::move(collisions));
-  return events;
+  Collisions<D> collisions(run.simulation(), spins);
+  run_for(run, count, stop);
+  return {event_quantities(D, spins), std::move(collisions.records)};
 }
 
 template <int D>
@@ -265,7 +216,7 @@ std::string measured(ScheduledRun<D>& run, const Scene& scene, double end,
   const double cpu_before = cpu_seconds();
   const auto began = std::chrono::steady_clock::now();
   const std::uint64_t collisions_before = run.simulation().counts().pair_collisions;
-  MeasurementOf<D> measurement(run, scene.measure, end);
+  Measurement<D> measurement(run.simulation(), scene.measure, end);
   if (!run.run_until(end, kNoLimit, kNoLimit, stop)) throw Interrupted();
   const Measured result = measurement.result(stop);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began;

@@ -108,7 +108,7 @@ class Trial {
     }
     observables_.emplace(*simulation_, measure);
     observables_->start();
-    observables_->add_timers(simulation_->time());
+    observables_->add_timers(timers_.emplace(*simulation_), simulation_->time());
   }
 
   void put_aside() {
@@ -135,6 +135,7 @@ class Trial {
   std::optional<CellIntegrals<2>> integrals_;
   std::optional<Balance<2>> balance_;
   std::optional<Observables<2>> observables_;
+  std::optional<Timers<2>> timers_;  // of its samples
   TripleBuffer<Snapshot> frames_;
 };
 

@@ -27,7 +27,7 @@ constexpr double kBurnIn = 200.0;
 constexpr int kRepetitions = 3;
 
 // The measurement of a run. Without fields and balance there is no observer.
-struct Observation {
+struct FieldMeasurement {
   std::string name;
   std::vector<Field> fields;
   std::optional<double> interval = {};  // of snapshots; absent: exact
@@ -46,7 +46,7 @@ double mean_variance(const std::vector<Estimate>& column) {
   return sum / static_cast<double>(column.size());
 }
 
-Outcome observe(const Scene& scene, double duration, const Observation& how) {
+Outcome observe(const Scene& scene, double duration, const FieldMeasurement& how) {
   constexpr double kWindows = 512.0, kWindowsPerBalance = 32.0;
   const auto simulation = simulation_of<2>(scene, 1);
   simulation->run_until(kBurnIn);
@@ -90,7 +90,7 @@ Outcome observe(const Scene& scene, double duration, const Observation& how) {
 // Runs all settings in turn, repeatedly, so that the load of the machine affects them equally. The
 // least time counts.
 std::vector<Outcome> observe_all(const Scene& scene, double duration,
-                                 const std::vector<Observation>& ways) {
+                                 const std::vector<FieldMeasurement>& ways) {
   std::vector<Outcome> outcomes(ways.size());
   for (int repetition = 0; repetition < kRepetitions; ++repetition) {
     for (std::size_t k = 0; k < ways.size(); ++k) {
@@ -116,7 +116,7 @@ int bench_fields(double duration, const std::string& json) {
   Scene scene = load_scene("vibrated", {});
   scene.measure.cells = {20, 25};  // cells of one diameter
   const std::vector<Field> temperature = {Quantity::Temperature};
-  std::vector<Observation> ways = {
+  std::vector<FieldMeasurement> ways = {
       {"bare run", {}}, {"exact, all fields", averages_without_spins()}, {"exact", temperature}};
   for (const double interval : {0.1, 0.3, 1.0, 3.0, 10.0}) {
     ways.push_back({fmt::format("snapshot {:g}", interval), temperature, interval});

@@ -15,13 +15,15 @@ PlotRecorder<D>::PlotRecorder(ScheduledRun<D>& run, const FilmPlots& film, const
     : run_(run),
       axis_(static_cast<int>(film.axis) < D ? film.axis : Axis::X),
       has_profile_(std::ranges::any_of(film.plots, is_profile)),
-      spacing_(film.speed / History::kPerSecond) {
+      spacing_(film.speed / History::kPerSecond),
+      totals_(run.simulation()),
+      own_(run.simulation(), *this),
+      of_totals_(run.simulation(), totals_) {
   frame_.run = 1;
   frame_.speed = film.speed;
   if (!saved.empty() && resume(saved)) return;
-  Simulation<D>& simulation = run.simulation();
-  next_ = static_cast<std::uint64_t>(simulation.time() / spacing_) + 1;
-  watch(simulation);
+  next_ = static_cast<std::uint64_t>(run.simulation().time() / spacing_) + 1;
+  begin_profile();
 }
 
 // The laws that samples belong to. Profiles also depend on the view and on the axis.
@@ -31,10 +33,9 @@ std::string PlotRecorder<D>::laws() const {
 }
 
 template <int D>
-void PlotRecorder<D>::watch(Simulation<D>& simulation) {
-  simulation.add_observer(totals_.emplace(simulation));
+void PlotRecorder<D>::begin_profile() {
   profile_.reset();
-  if (has_profile_) profile_.emplace(simulation, profile_window(), axis_);
+  if (has_profile_) profile_.emplace(run_.simulation(), profile_window(), axis_);
 }
 
 // Returns false if the saved samples belong to other laws or plots.
@@ -47,7 +48,6 @@ bool PlotRecorder<D>::resume(const std::string& saved) {
   reader.finish();
   if (saved_laws != laws() || profile.empty() == has_profile_) return false;
   Simulation<D>& simulation = run_.simulation();
-  simulation.add_observer(totals_.emplace(simulation));
   ArchiveReader of_samples(samples, kFile);
   visit(of_samples);
   of_samples.finish();
@@ -62,9 +62,13 @@ bool PlotRecorder<D>::resume(const std::string& saved) {
 }
 
 template <int D>
-void PlotRecorder<D>::follow(Simulation<D>& next) {
-  add(tally_, totals_->close_window());
-  watch(next);
+void PlotRecorder<D>::before_laws(const Model<D>&) {
+  add(tally_, totals_.close_window());
+}
+
+template <int D>
+void PlotRecorder<D>::on_laws() {
+  begin_profile();
   frame_.scene.reset();
 }
 
@@ -81,7 +85,7 @@ bool PlotRecorder<D>::run_until(double time, const std::function<bool(double tim
 
 template <int D>
 void PlotRecorder<D>::take_sample() {
-  add(tally_, totals_->close_window());
+  add(tally_, totals_.close_window());
   frame_.snapshot = snapshot_of(run_.simulation());
   frame_.head = frame_.snapshot.time;
   frame_.tally = tally_;

@@ -23,17 +23,17 @@ struct FilmPlots {
 
 /// Samples a run for the plots of its film.
 template <int D>
-class PlotRecorder {
+class PlotRecorder final : private Observer<D> {
  public:
   /// Samples from the present time of the run on. The samples continue the result of save(), unless
   /// it is empty or belongs to other laws or plots. `run` must outlive the recorder.
   PlotRecorder(ScheduledRun<D>& run, const FilmPlots& film, const std::string& saved);
+  PlotRecorder(const PlotRecorder&) = delete;
+  PlotRecorder& operator=(const PlotRecorder&) = delete;
 
   /// Runs to a time by `run`, which returns false at an early end, and takes samples on the way.
   /// Returns false at an early end.
   bool run_until(double time, const std::function<bool(double time)>& run);
-  /// Follows the next simulation of the run, under new laws.
-  void follow(Simulation<D>& next);
   /// The gas at the present time, without a name. Valid until the next call.
   PlottedGas gas();
   /// The samples and all sums, for a checkpoint.
@@ -43,12 +43,14 @@ class PlotRecorder {
   double next_time() const { return static_cast<double>(next_) * spacing_; }
   double profile_window() const { return run_.laws().view.window / kWindowParts; }
   std::string laws() const;
-  void watch(Simulation<D>& simulation);
+  void before_laws(const Model<D>& next) override;
+  void on_laws() override;
+  void begin_profile();
   bool resume(const std::string& saved);
   void take_sample();
   template <class Archive>
   void visit(Archive& io) {
-    io(next_, tally_, history_, *totals_);
+    io(next_, tally_, history_, totals_);
   }
 
   ScheduledRun<D>& run_;
@@ -58,9 +60,10 @@ class PlotRecorder {
   std::uint64_t next_ = 1;  // number of the next sample; sample 0 is at time 0
   Tally tally_ = empty_tally(D);
   History history_;
-  std::optional<Totals<D>> totals_;
+  Totals<D> totals_;
   std::optional<LiveProfile<D>> profile_;  // absent: no plot needs it
   Frame frame_;                            // of the last sample
+  Observation<D> own_, of_totals_;
 };
 
 extern template class PlotRecorder<2>;

@@ -54,7 +54,7 @@ class CompanionRun final : public Companion {
   }
   PlottedGas plotted() override { return plots_->gas(); }
   Snapshot snapshot() override { return run_->snapshot(); }
-  void listen() override { clicks_.emplace().follow(run_->simulation()); }
+  void listen() override { clicks_.emplace(run_->simulation()); }
   std::vector<Click> take_clicks() override { return clicks_->take(); }
   std::unique_ptr<SoundPreview> preview() const override {
     return preview_of(*run_, compared_.scene);
@@ -78,10 +78,6 @@ class CompanionRun final : public Companion {
     run_->use_threads(threads);
     run_->show(view_, shown, exposure_);
     if (!film_.plots.empty()) plots_.emplace(*run_, film_, plots);
-    run_->on_change = [this](Simulation<D>& next) {
-      if (clicks_) clicks_->follow(next);
-      if (plots_) plots_->follow(next);
-    };
   }
 
   ComparedScene compared_;

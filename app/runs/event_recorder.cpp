@@ -52,10 +52,11 @@ EventRecorder<D>::EventRecorder(const std::filesystem::path& path, EventSelectio
       path_(path),
       selection_(std::move(selection)),
       spins_(spins),
-      quantities_(event_quantities(D, spins)) {
+      quantities_(event_quantities(D, spins)),
+      simulation_(simulation),
+      observation_(simulation, *this) {
   file_.emplace(records_path(path_), 0);
   if (format_ == EventLogFormat::Csv) file_->append(csv_header(quantities_));
-  follow(simulation);
 }
 
 template <int D>
@@ -66,7 +67,9 @@ EventRecorder<D>::EventRecorder(const std::filesystem::path& path, EventSelectio
       path_(path),
       selection_(std::move(selection)),
       spins_(spins),
-      quantities_(event_quantities(D, spins)) {
+      quantities_(event_quantities(D, spins)),
+      simulation_(simulation),
+      observation_(simulation, *this) {
   ArchiveReader reader(saved, checkpoint);
   SavedEvents before;
   reader(before);
@@ -87,13 +90,6 @@ EventRecorder<D>::EventRecorder(const std::filesystem::path& path, EventSelectio
   }
   candidates_ = before.candidates;
   file_.emplace(records_path(path_), before.bytes);
-  follow(simulation);
-}
-
-template <int D>
-void EventRecorder<D>::follow(Simulation<D>& next) {
-  simulation_ = &next;
-  next.add_observer(*this);
 }
 
 // Events at equal distances in the sequence are a share of them.
@@ -103,7 +99,7 @@ bool EventRecorder<D>::selects(const ParticleChange<D>& first, const ParticleCha
     return std::ranges::find(selection_.particles, change.particle) != selection_.particles.end();
   };
   const auto inside = [&](const ParticleChange<D>& change) {
-    const Vec<D> place = simulation_->model().wrapped(change.position);
+    const Vec<D> place = simulation_.model().wrapped(change.position);
     for (int axis = 0; axis < D; ++axis) {
       const auto low = static_cast<std::size_t>(2 * axis);
       if (place[axis] < selection_.region[low] || place[axis] > selection_.region[low + 1]) {
@@ -122,13 +118,13 @@ template <int D>
 void EventRecorder<D>::on_collision(const PairCollision<D>& collision) {
   const auto& [first, second] = collision.particles;
   if (!selects(first, &second)) return;
-  append_record<D>(records_, simulation_->model(), simulation_->time(), collision, spins_);
+  append_record<D>(records_, simulation_.model(), simulation_.time(), collision, spins_);
 }
 
 template <int D>
 void EventRecorder<D>::on_wall(const WallCollision<D>& collision) {
   if (!selects(collision.particle, nullptr)) return;
-  append_record<D>(records_, simulation_->model(), simulation_->time(), collision, spins_);
+  append_record<D>(records_, simulation_.model(), simulation_.time(), collision, spins_);
 }
 
 template <int D>

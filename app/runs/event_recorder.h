@@ -38,8 +38,6 @@ class EventRecorder final : private Observer<D> {
   /// Writes the events so far. To be called between steps of the run, because an event cannot fail.
   /// Throws RunError.
   void flush();
-  /// Observes the next simulation of the run.
-  void follow(Simulation<D>& next);
   /// Waits until the events are on the disk. Returns the state for a checkpoint. Throws RunError.
   std::string save();
   /// Ends a log. `resumable`: whether a checkpoint of this time exists, which needs the records.
@@ -58,10 +56,11 @@ class EventRecorder final : private Observer<D> {
   EventSelection selection_;
   bool spins_;
   std::vector<EventQuantity> quantities_;
-  const Simulation<D>* simulation_;
+  const Simulation<D>& simulation_;
   std::uint64_t candidates_ = 0;  // events before the share was taken
   std::vector<double> records_;   // not yet written
   std::optional<GrowingFile> file_;
+  Observation<D> observation_;
 };
 
 extern template class EventRecorder<2>;

@@ -119,7 +119,6 @@ Film<D>::Film(Run<D>& run, const std::vector<ComparedScene>& compared, const Vie
     plots_.emplace(run_.scheduled(), film_plots(), state_.plots);
     strip_.emplace(gl, split_for_plots(state_.size).plots.size, state_.size, state_.transparent);
   }
-  follow_changes();
   add_cells(compared, view, threads, gl);
   if (state_.sound && state_.sound->synthesiser) listen();
 }
@@ -343,7 +342,7 @@ bool Film<D>::choose_sound(Progress& progress) {
 // Lists the clicks of all gases from now on.
 template <int D>
 void Film<D>::listen() {
-  clicks_.follow(run_.simulation());
+  clicks_.emplace(run_.simulation());
   for (const auto& companion : companions_) companion->listen();
 }
 
@@ -360,18 +359,10 @@ std::vector<Click> Film<D>::take_clicks() {
       all.push_back(click);
     }
   };
-  add(0, clicks_.take());
+  add(0, clicks_->take());
   for (int k = 1; k < count; ++k)
     add(k, companions_[static_cast<std::size_t>(k - 1)]->take_clicks());
   return all;
-}
-
-template <int D>
-void Film<D>::follow_changes() {
-  run_.scheduled().on_change = [this](Simulation<D>& next) {
-    if (state_.sound && state_.sound->synthesiser) clicks_.follow(next);
-    if (plots_) plots_->follow(next);
-  };
 }
 
 // The samples between the previous frame and the next.

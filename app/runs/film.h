@@ -113,7 +113,6 @@ class Film {
   bool choose_sound(Progress& progress);
   void listen();
   std::vector<Click> take_clicks();
-  void follow_changes();
   Image strip();
   void render_sound(FrameSink& sink);
   void end_sound(FrameSink& sink) const;
@@ -125,7 +124,7 @@ class Film {
   FilmState state_;
   std::vector<std::unique_ptr<Companion>> companions_;
   std::deque<FilmCell> cells_;  ///< of the run, then of its companions
-  ClickRecorder<D> clicks_;     ///< follows the run from the first frame on, if the film has sound
+  std::optional<ClickRecorder<D>> clicks_;  ///< from the first frame on, if the film has sound
   std::optional<PlotRecorder<D>> plots_;  ///< absent: no plots
   std::optional<PlotStrip> strip_;        ///< present with plots
 };

@@ -7,7 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "app/runs/measurement_hand_over.h"
 #include "app/system/exit_code.h"
 #include "app/system/interrupt.h"
 #include "app/system/outputs.h"
@@ -83,10 +82,9 @@ Run<D>::Run(const std::string& command, const Scene& scene, const CommonOptions&
 
 template <int D>
 Measurement<D>& Run<D>::measure(double end) {
-  measure_end_ = end;
-  run_->on_change = [this](Simulation<D>& next) { follow(next); };
   if (!averages_go_on_) {
     measurement_.emplace(simulation(), scene_.measure, end);
+    told_start_ = measurement_->averages_start();
     if (resumed_) tell_new_averages();
     return *measurement_;
   }
@@ -96,6 +94,7 @@ Measurement<D>& Run<D>::measure(double end) {
   const bool restart = differs(*resumed_, kBurnInKey);
   measurement_.emplace(simulation(), scene_.measure, end, ArchiveReader(saved, resumed_->file),
                        restart ? Averages::Restart : Averages::GoOn);
+  told_start_ = measurement_->averages_start();
   if (restart) tell_new_averages();
   saved.clear();
   return *measurement_;
@@ -112,7 +111,6 @@ bool Run<D>::ever_spins() const {
 
 template <int D>
 void Run<D>::record(const std::filesystem::path& file, double every) {
-  run_->on_change = [this](Simulation<D>& next) { follow(next); };
   std::string saved = resumed_ ? std::move(resumed_->checkpoint.trajectory) : "";
   if (saved.empty()) {
     std::error_code ignored;
@@ -129,7 +127,6 @@ void Run<D>::record(const std::filesystem::path& file, double every) {
 
 template <int D>
 void Run<D>::log_events(const std::filesystem::path& file, const EventSelection& selection) {
-  run_->on_change = [this](Simulation<D>& next) { follow(next); };
   const std::string saved = resumed_ ? std::move(resumed_->checkpoint.events) : "";
   if (!saved.empty()) {
     events_.emplace(file, selection, ever_spins(), simulation(), saved, resumed_->file);
@@ -160,24 +157,9 @@ void Run<D>::tell_left_files() const {
 }
 
 template <int D>
-void Run<D>::follow(Simulation<D>& next) {
-  if (measurement_) measure_on(next);
-  if (recorder_) recorder_->follow(next);
-  if (events_) events_->follow(next);
-}
-
-template <int D>
-void Run<D>::measure_on(Simulation<D>& next) {
-  if (!hand_over(measurement_, simulation(), next, scene_.measure, measure_end_)) {
-    tell_new_averages();
-  }
-}
-
-template <int D>
 void Run<D>::tell_new_averages() const {
   if (quiet_) return;
-  std::fprintf(stderr, "clatter: averages restart at t = %g\n",
-               std::max(run_->simulation().time(), scene_.measure.burn_in));
+  std::fprintf(stderr, "clatter: averages restart at t = %g\n", told_start_);
 }
 
 template <int D>
@@ -200,6 +182,10 @@ bool Run<D>::advance(double time, Progress& progress) {
       arrived = run_->run_until(time, kNoLimit, kNoLimit,
                                 [due] { return interrupted() || Clock::now() >= due; });
       if (events_) events_->flush();
+      if (measurement_ && measurement_->averages_start() != told_start_) {
+        told_start_ = measurement_->averages_start();
+        tell_new_averages();
+      }
       const std::chrono::duration<double> since_written = Clock::now() - last_written_;
       if (!options_.file.empty() && since_written.count() >= options_.every) write();
     }

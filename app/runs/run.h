@@ -95,8 +95,6 @@ class Run {
   Checkpoint checkpoint();
   void write();
   bool advance(double time, Progress& progress);
-  void follow(Simulation<D>& next);
-  void measure_on(Simulation<D>& next);
   void tell_new_averages() const;
   // Whether particles have spins at some time of the run.
   bool ever_spins() const;
@@ -112,8 +110,8 @@ class Run {
   bool averages_go_on_ = false;  // whether the averages of the checkpoint continue
   std::uint64_t seed_;
   std::optional<ScheduledRun<D>> run_;
-  double measure_end_ = 0.0;
   std::optional<Measurement<D>> measurement_;
+  double told_start_ = 0.0;  // of the averages, at the last note
   std::optional<TrajectoryRecorder<D>> recorder_;
   std::optional<EventRecorder<D>> events_;
   std::optional<Checkpoint> marked_;

@@ -12,10 +12,7 @@ template <int D>
 class PreviewRun final : public SoundPreview {
  public:
   PreviewRun(const ScheduledRun<D>& run, const Scene& scene)
-      : ahead_(scene, run.seed(), run.simulation().save()) {
-    ahead_.on_change = [this](Simulation<D>& next) { clicks_.follow(next); };
-    clicks_.follow(ahead_.simulation());
-  }
+      : ahead_(scene, run.seed(), run.simulation().save()), clicks_(ahead_.simulation()) {}
 
   bool run_until(double time) override {
     return ahead_.run_until(time, kNoLimit, kNoLimit, interrupted);

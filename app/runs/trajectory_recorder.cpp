@@ -97,12 +97,6 @@ void TrajectoryRecorder<D>::add(const Simulation<D>& simulation) {
 }
 
 template <int D>
-void TrajectoryRecorder<D>::follow(Simulation<D>& next) {
-  const PeriodicImages<D> before = *images_;
-  images_.emplace(next, before);
-}
-
-template <int D>
 std::string TrajectoryRecorder<D>::save() {
   file_->sync();
   SavedTrajectory saved{every_, next_, file_->bytes(), static_cast<std::uint8_t>(format_), spins_};

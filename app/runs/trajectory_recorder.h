@@ -34,8 +34,6 @@ class TrajectoryRecorder {
   double next_time() const { return times_.of(next_); }
   /// Appends the state of the simulation, which is at next_time(). Throws RunError.
   void add(const Simulation<D>& simulation);
-  /// Observes the next simulation of the run, before the previous one ends.
-  void follow(Simulation<D>& next);
   /// Waits until the frames are on the disk. Returns the state for a checkpoint. Throws RunError.
   std::string save();
   /// Completes the file, with all frames on the disk. Throws RunError, also if an earlier save()

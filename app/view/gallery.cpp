@@ -114,20 +114,22 @@ const EmbeddedFile* Gallery::draw(Controls& controls, float width, float height,
     search_ = {};
     selected_ = 0;
   }
-  const bool enter = std::exchange(enters_, false);
-  const bool keeps_search = enter && ImGui::GetIO().WantTextInput;
-  if (std::exchange(searches_, false) || keeps_search) ImGui::SetKeyboardFocusHere();
+  if (std::exchange(searches_, false)) ImGui::SetKeyboardFocusHere();
   const float side = ImGui::GetFrameHeight();
   ImGui::SetNextItemWidth(-side - ImGui::GetStyle().ItemSpacing.x);
-  if (ImGui::InputTextWithHint("##search", "Search the gallery ( / )", search_.data(),
-                               search_.size())) {
-    selected_ = 0;
-  }
+  // While a text is typed, Enter is the one of the field, which comes after all letters before it.
+  const bool entered =
+      ImGui::InputTextWithHint("##search", "Search the gallery ( / )", search_.data(),
+                               search_.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+  if (ImGui::IsItemEdited()) selected_ = 0;
+  const bool typing = ImGui::IsItemActive() || ImGui::IsItemDeactivated();
+  const bool enter = (std::exchange(enters_, false) && !typing) || entered;
   ImGui::SameLine();
   if (controls.button("gallery.close", "×", "Close (G)", side)) open = false;
   ImGui::Spacing();
   ImGui::BeginChild("scenes");
   const std::vector<const Entry*> found = matches();
+  searches_ = entered && found.empty();  // Enter ends the typing of a text
   if (found.empty()) {
     controls.note("gallery.none", "No scene matches \"" + std::string(search_.data()) + '"');
   }

@@ -16,10 +16,29 @@ std::array<WallMotion, 2 * D> wall_motions(const Model<D>& model) {
 }
 
 template <int D>
+bool keeps_flights(const Model<D>& before, const Model<D>& after) {
+  return before.gravity == after.gravity && wall_motions<D>(before) == wall_motions<D>(after);
+}
+
+template <int D>
+bool keeps_flights(const RunState<D>& saved, const Model<D>& after) {
+  return saved.gravity == after.gravity && saved.wall_motions == wall_motions<D>(after);
+}
+
+template <int D>
 Boundary<D>::Boundary(const Model<D>& model, const Clock& clock,
                       const std::array<double, 2 * D>& phase_shifts,
                       const std::optional<PistonStroke>& piston)
-    : model_(model), phase_shifts_(phase_shifts), piston_(piston) {
+    : model_(model) {
+  restart(clock, phase_shifts, piston);
+}
+
+template <int D>
+void Boundary<D>::restart(const Clock& clock, const std::array<double, 2 * D>& phase_shifts,
+                          const std::optional<PistonStroke>& piston) {
+  phase_shifts_ = phase_shifts;
+  motions_ = {};
+  piston_ = piston;
   move_base(clock);
 }
 
@@ -89,6 +108,10 @@ double Boundary<D>::contact_time(int side, const Flight<D>& flight, double now) 
 
 template std::array<WallMotion, 4> wall_motions<2>(const Model<2>&);
 template std::array<WallMotion, 6> wall_motions<3>(const Model<3>&);
+template bool keeps_flights<2>(const Model<2>&, const Model<2>&);
+template bool keeps_flights<3>(const Model<3>&, const Model<3>&);
+template bool keeps_flights<2>(const RunState<2>&, const Model<2>&);
+template bool keeps_flights<3>(const RunState<3>&, const Model<3>&);
 template class Boundary<2>;
 template class Boundary<3>;
 

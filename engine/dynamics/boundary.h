@@ -5,6 +5,7 @@
 
 #include "engine/dynamics/clock.h"
 #include "engine/dynamics/model.h"
+#include "engine/dynamics/run_state.h"
 #include "engine/physics/flight.h"
 #include "engine/physics/piston.h"
 #include "engine/physics/wall_motion.h"
@@ -14,6 +15,14 @@ namespace clatter {
 /// The motion of each wall, with its phase at simulation time 0. A wall with stroke 0 is at rest.
 template <int D>
 std::array<WallMotion, 2 * D> wall_motions(const Model<D>& model);
+
+/// Whether flights continue under other laws: gravity and the motions of all walls are the same.
+template <int D>
+bool keeps_flights(const Model<D>& before, const Model<D>& after);
+
+/// The same for the flights of a saved run.
+template <int D>
+bool keeps_flights(const RunState<D>& saved, const Model<D>& after);
 
 /// The walls of a run, at times on its moving base. A wall's place is the position of the centre of
 /// a particle that touches it.
@@ -26,6 +35,9 @@ class Boundary {
            const std::array<double, 2 * D>& phase_shifts = {},
            const std::optional<PistonStroke>& piston = {});
 
+  /// Takes the changed walls of the model, at the clock's base. For the others see RunState.
+  void restart(const Clock& clock, const std::array<double, 2 * D>& phase_shifts,
+               const std::optional<PistonStroke>& piston);
   /// Computes the phases of moving walls and the times of the piston at the clock's new base.
   void move_base(const Clock& clock);
   /// Replaces the stroke of the piston. Then the base must move.

@@ -72,21 +72,47 @@ static ParticleStates<D> states_of(const Model<D>& model, RunState<D>& saved) {
 
 template <int D>
 EventLoop<D>::EventLoop(const Model<D>& model, const Boundary<D>& boundary, RunState<D>&& saved)
-    : model_(model),
-      boundary_(boundary),
-      now_(saved.now),
-      gas_(states_of<D>(model, saved)),
-      near_(model, static_cast<double>(gas_.particles.size())),
-      prediction_(model, boundary, gas_.particles, near_),
-      until_base_moves_(saved.until_base_moves),
-      fastest_(fastest_speed<D>(model, saved.start_speed, saved.counts.strokes > 0)),
-      counts_(saved.counts),
-      checks_(saved.checks) {
-  if (!may_collapse(model) && saved.counts.strokes == 0) return;
-  if (saved.watchdog) {
-    watchdog_.emplace(gas_.particles.size(), *saved.watchdog);
+    : EventLoop(model, boundary) {
+  restart(std::move(saved));
+}
+
+template <int D>
+void EventLoop<D>::restart(RunState<D>&& saved) {
+  now_ = saved.now;
+  gas_ = ParticleStates<D>();  // frees its memory before the next gas takes its own
+  drop_plans();
+  gas_ = states_of<D>(model_, saved);
+  near_ = Neighbourhood<D>(model_, static_cast<double>(gas_.particles.size()));
+  prediction_.set_laws();
+  until_base_moves_ = saved.until_base_moves;
+  counts_ = saved.counts;
+  checks_ = saved.checks;
+  begin_watch(saved.start_speed, saved.mean_collision_time, saved.watchdog);
+}
+
+// Sets the speed limit and the watchdog that the laws need.
+template <int D>
+void EventLoop<D>::begin_watch(double start_speed, double mean_collision_time,
+                               const std::optional<WatchdogState>& watchdog) {
+  allow_start_speed(start_speed);
+  watchdog_.reset();
+  if (!may_collapse(model_) && counts_.strokes == 0) return;
+  if (watchdog) {
+    watchdog_.emplace(gas_.particles.size(), *watchdog);
   } else {
-    watchdog_.emplace(gas_.particles.size(), now_, saved.mean_collision_time);
+    watchdog_.emplace(gas_.particles.size(), now_, mean_collision_time);
+  }
+}
+
+template <int D>
+void EventLoop<D>::set_laws(bool keeps_flights, const Vec<D>& gravity, double start_speed) {
+  gas_.fit(model_, gas_.particles.size());
+  begin_watch(start_speed, watchdog_ ? watchdog_->mean_collision_time() : 0.0, std::nullopt);
+  prediction_.set_laws();
+  if (keeps_flights) return;
+  for (std::size_t i = 0; i < gas_.particles.size(); ++i) {
+    Flight<D>& flight = gas_.particles.flight(i);
+    flight = {flight.at(now_, gravity), flight.velocity_at(now_, gravity), now_, flight.number};
   }
 }
 
@@ -389,11 +415,27 @@ double EventLoop<D>::deepest_overlap_of(std::size_t number) const {
         r - gas_.particles[j].flight.at(now_, model_.gravity) + image.cwiseProduct(model_.box);
     deepest = std::max(deepest, 1.0 - x.norm() / model_.diameter);
   });
+  return std::max(deepest, overlap_with_walls(boundary_, r));
+}
+
+template <int D>
+double EventLoop<D>::overlap_with_walls(const Boundary<D>& boundary, const Vec<D>& position) const {
+  double deepest = 0.0;
   for (int side = 0; side < 2 * D; ++side) {
     if (!model_.walls[side]) continue;
-    const double place = boundary_.touching_place(side, now_);
-    const double beyond = Boundary<D>::inward(side) * (place - r[side / 2]);
+    const double place = boundary.touching_place(side, now_);
+    const double beyond = Boundary<D>::inward(side) * (place - position[side / 2]);
     deepest = std::max(deepest, beyond / model_.diameter);
+  }
+  return deepest;
+}
+
+template <int D>
+double EventLoop<D>::deepest_overlap_with(const Boundary<D>& boundary) const {
+  double deepest = 0.0;
+  for (const Particle<D>& particle : gas_.particles) {
+    const Vec<D> place = particle.flight.at(now_, model_.gravity);
+    deepest = std::max(deepest, overlap_with_walls(boundary, place));
   }
   return deepest;
 }

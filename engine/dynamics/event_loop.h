@@ -47,6 +47,9 @@ class EventLoop {
   /// Takes the particles of a saved run; afterwards `saved` has none. `model` and `boundary` must
   /// outlive the loop.
   EventLoop(const Model<D>& model, const Boundary<D>& boundary, RunState<D>&& saved);
+  /// Continues from another saved run under the present laws, with the same observers. Nothing is
+  /// prepared.
+  void restart(RunState<D>&& saved);
   /// An empty loop for tiles of the gas of another loop, see load().
   EventLoop(const Model<D>& model, const Boundary<D>& boundary);
   EventLoop(const EventLoop&) = delete;
@@ -113,6 +116,8 @@ class EventLoop {
   void watch_closely(double mean_collision_time) {
     watchdog_.emplace(gas_.particles.size(), now_, mean_collision_time, kFewPerPair);
   }
+  /// Counts a change of laws.
+  void count_law_change() { ++counts_.law_changes; }
   /// The speed of the fastest particle now.
   double fastest_now() const;
   /// Raises the speed above which speeds diverge to that of a run with this speed at its start.
@@ -129,8 +134,20 @@ class EventLoop {
   void move_base();
   /// Plans the next events of all particles, in cells that fit the crowding.
   void plan_again();
+  /// Takes the changed laws of the model. If flights do not continue under them, flights that had
+  /// the acceleration `gravity` begin now, and plans are invalid until plan_again(). The watchdog
+  /// begins anew. `start_speed`: see RunState.
+  void set_laws(bool keeps_flights, const Vec<D>& gravity, double start_speed);
+  /// Deepest overlap of a particle with walls, as a share of the diameter; 0: none.
+  double deepest_overlap_with(const Boundary<D>& boundary) const;
   /// Reports every event from now on to an observer.
   void add_observer(Observer<D>& observer) { observers_.push_back(&observer); }
+  /// Reports nothing to an observer from now on.
+  void remove_observer(const Observer<D>& observer) { std::erase(observers_, &observer); }
+  /// Calls report(observer) for each observer. A call may remove observers and add others, which
+  /// have no call.
+  template <class Report>
+  void for_observers(const Report& report) const;
   /// Adds the particles, times, counts and checks to a saved run.
   void save_to(RunState<D>& saved) const;
 
@@ -172,6 +189,9 @@ class EventLoop {
   [[gnu::always_inline]] inline void schedule(std::uint32_t particle);
   void put_into_cell(std::size_t number);
   double deepest_overlap_of(std::size_t number) const;
+  double overlap_with_walls(const Boundary<D>& boundary, const Vec<D>& position) const;
+  void begin_watch(double start_speed, double mean_collision_time,
+                   const std::optional<WatchdogState>& watchdog);
   bool is_current(const Event& event) const;
   void prefetch_ahead();
   template <typename Visit>
@@ -200,6 +220,15 @@ class EventLoop {
   EventCounts counts_;
   RunChecks checks_;
 };
+
+template <int D>
+template <class Report>
+void EventLoop<D>::for_observers(const Report& report) const {
+  const std::vector<Observer<D>*> present = observers_;
+  for (Observer<D>* observer : present) {
+    if (std::ranges::find(observers_, observer) != observers_.end()) report(*observer);
+  }
+}
 
 template <int D>
 void EventLoop<D>::schedule(std::uint32_t particle) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+#include "engine/dynamics/model.h"
 #include "engine/physics/collision.h"
 #include "engine/physics/flight.h"
 #include "engine/physics/spin.h"
@@ -73,6 +74,12 @@ class Observer {
   virtual void on_kick(const Kick<D>&) {}
   /// All times on the moving base have become smaller by `shift`.
   virtual void on_base_moved(double /*shift*/) {}
+  /// The laws are about to become `next`, or particles are about to enter under the same laws. The
+  /// simulation still has the present laws, particles and flights. If keeps_flights() is false for
+  /// the two laws, all flights end now.
+  virtual void before_laws(const Model<D>& /*next*/) {}
+  /// The simulation has the next laws and particles.
+  virtual void on_laws() {}
 };
 
 }  // namespace clatter

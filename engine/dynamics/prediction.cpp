@@ -30,8 +30,15 @@ Prediction<D>::Prediction(const Model<D>& model, const Boundary<D>& boundary,
       boundary_(boundary),
       particles_(particles),
       near_(near),
-      walled_(std::any_of(model.walls.begin(), model.walls.end(), [](const auto& w) { return w; })),
-      planners_(model.has_gravity() ? widest_planners<true>() : widest_planners<false>()) {}
+      walled_(
+          std::any_of(model.walls.begin(), model.walls.end(), [](const auto& w) { return w; })) {
+  set_laws();
+}
+
+template <int D>
+void Prediction<D>::set_laws() {
+  planners_ = model_.has_gravity() ? widest_planners<true>() : widest_planners<false>();
+}
 
 // Order of two periodic images through which one pair touches at the same time. The order is the
 // same from either particle.

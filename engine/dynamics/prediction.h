@@ -47,6 +47,9 @@ class Prediction {
   /// outlive this object. Null: by the particles' own numbers.
   void order_by(const std::uint32_t* numbers) { numbers_ = numbers; }
 
+  /// Takes the changed laws of the model.
+  void set_laws();
+
   /// Plans the first contact with a particle or wall near the particle's cell, or the exit from the
   /// cell.
   void plan(const Request& request, double now) const { planners_.one(*this, {request}, now); }

@@ -22,6 +22,8 @@ class RegularTimes {
   double of(std::uint64_t number) const { return exactly(number).high; }
   /// The number of the first time at or after `time`, for an interval > 0.
   std::uint64_t first_from(double time) const;
+  /// The first time.
+  double start() const { return start_; }
   /// The interval.
   double interval() const { return interval_; }
 

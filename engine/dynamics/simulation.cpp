@@ -105,7 +105,7 @@ Simulation<D>::Simulation(const Model<D>& model, State<D> state, double start_ti
 // Predictions along a flight begin at its start. Under changed laws flights must start now.
 template <int D>
 static void restart_changed_flights(const Model<D>& model, RunState<D>& saved) {
-  if (saved.gravity == model.gravity && saved.wall_motions == wall_motions<D>(model)) return;
+  if (keeps_flights<D>(saved, model)) return;
   for (Flight<D>& flight : saved.flights) {
     flight = {flight.at(saved.now, saved.gravity), flight.velocity_at(saved.now, saved.gravity),
               saved.now, flight.number};
@@ -124,27 +124,86 @@ Simulation<D>::Simulation(InParts, const Model<D>& model, State<D> state, double
 
 // A smooth contact keeps spins, so particles keep them under smooth laws.
 template <int D>
-static Model<D> with_spins(Model<D> model, const RunState<D>& saved) {
-  model.spins = model.spins || !saved.spins.empty();
+static Model<D> with_spins(Model<D> model, bool spins) {
+  model.spins = model.spins || spins;
   return model;
 }
 
 template <int D>
 Simulation<D>::Simulation(InParts, const Model<D>& model, RunState<D> saved)
-    : model_(with_spins(model, saved)),
-      clock_(saved.base),
-      boundary_(model_, clock_, phase_shifts<D>(model_, saved), saved.piston),
-      start_speed_(saved.start_speed),
-      kick_origin_(saved.kick_origin),
-      kick_times_(kick_origin_, kick_interval<D>(model_)),
-      kicks_since_origin_(saved.kicks_since_origin),
-      loop_(model_, boundary_, (restart_changed_flights<D>(model_, saved), std::move(saved))) {
-  if (saved.kick_interval != kick_interval<D>(model_)) {
-    kick_origin_ = time();
-    kick_times_ = RegularTimes(kick_origin_, kick_interval<D>(model_));
-    kicks_since_origin_ = 0;
-  }
+    : model_(model), boundary_(model_, clock_), loop_(model_, boundary_) {
+  restart(model, std::move(saved));
+}
+
+template <int D>
+void Simulation<D>::restart(const Model<D>& model, RunState<D> saved) {
+  model_ = with_spins(model, !saved.spins.empty());
+  clock_ = Clock(saved.base);
+  boundary_.restart(clock_, phase_shifts<D>(model_, saved), saved.piston);
+  start_speed_ = saved.start_speed;
+  kick_times_ = RegularTimes(saved.kick_origin, saved.kick_interval);
+  kicks_since_origin_ = saved.kicks_since_origin;
+  restart_changed_flights<D>(model_, saved);
+  loop_.restart(std::move(saved));
+  set_kicks();
   preparation_ = std::make_unique<Preparation>(Preparation{std::move(saved), {}});
+  look_anew();
+  in_tiles_ = false;
+  if (foresight_) make_tiles();
+}
+
+// Kicks with another interval are counted from now.
+template <int D>
+void Simulation<D>::set_kicks() {
+  if (kick_times_.interval() == kick_interval<D>(model_)) return;
+  kick_times_ = RegularTimes(time(), kick_interval<D>(model_));
+  kicks_since_origin_ = 0;
+}
+
+template <int D>
+void Simulation<D>::set_laws(const Model<D>& model) {
+  prepare({});
+  const RunState<D> present = save_without_particles();
+  const Model<D> next = with_spins(model, !spins().empty());
+  const bool goes_on = keeps_flights<D>(model_, next);
+  const Boundary<D> boundary(next, clock_, phase_shifts<D>(next, present), boundary_.piston());
+  if (!goes_on) {
+    const double overlap = loop_.deepest_overlap_with(boundary);
+    if (overlap > bearable_overlap()) throw overlap_at_start<D>(next, present, overlap);
+  }
+  loop_.for_observers([&](Observer<D>& observer) { observer.before_laws(next); });
+  model_ = next;
+  boundary_.restart(clock_, boundary.phase_shifts(), boundary.piston());
+  set_kicks();
+  loop_.set_laws(goes_on, present.gravity, start_speed_);
+  look_anew();
+  if (in_tiles_ && !goes_on) {
+    make_tiles();
+  } else if (in_tiles_) {
+    way_is_open_ = true;  // events that tiles have found had the former laws
+  } else if (!goes_on) {
+    loop_.plan_again();
+  }
+  loop_.for_observers([](Observer<D>& observer) { observer.on_laws(); });
+}
+
+template <int D>
+void Simulation<D>::add_particles(const std::vector<Vec<D>>& positions) {
+  RunState<D> next = save();
+  next.watchdog.reset();
+  for (const Vec<D>& position : positions) {
+    next.flights.push_back({position, Vec<D>::Zero(), next.now, 0});
+  }
+  loop_.for_observers([&](Observer<D>& observer) { observer.before_laws(model_); });
+  restart(model_, std::move(next));
+  prepare({});
+  loop_.for_observers([](Observer<D>& observer) { observer.on_laws(); });
+}
+
+// Overlaps that the run has already accepted at contacts are accepted at a restart too.
+template <int D>
+double Simulation<D>::bearable_overlap() const {
+  return kStartRounding + checks().deepest_overlap;
 }
 
 template <int D>
@@ -152,9 +211,7 @@ bool Simulation<D>::prepare(const StopRequest& pause) {
   if (!preparation_) return true;
   auto& [saved, work] = *preparation_;
   if (!loop_.place(work, pause) || !loop_.compare(work, pause)) return false;
-  // Overlaps that the run has already accepted at contacts are accepted at a restart too.
-  const double borne = kStartRounding + checks().deepest_overlap;
-  if (work.deepest_overlap > borne) {
+  if (work.deepest_overlap > bearable_overlap()) {
     throw overlap_at_start<D>(model_, saved, work.deepest_overlap);
   }
   if (!loop_.plan(work, pause)) return false;
@@ -207,11 +264,19 @@ void Simulation<D>::use_threads(int threads) {
 
 template <int D>
 void Simulation<D>::use_threads(int threads, const TileSizes& sizes) {
-  foresight_ =
-      std::make_unique<Foresight<D>>(model_, boundary_, particles().size(), threads, sizes);
+  threads_ = threads;
+  tile_sizes_ = sizes;
+  watched_in_tiles_ = true;
+  make_tiles();
+}
+
+// The way is chosen at the next event.
+template <int D>
+void Simulation<D>::make_tiles() {
+  foresight_ = std::make_unique<Foresight<D>>(model_, boundary_, particles().size(), threads_,
+                                              tile_sizes_);
   if (foresight_->tiles() < 2) foresight_.reset();
   until_tried_ = 0;
-  watched_in_tiles_ = true;
   way_is_open_ = foresight_ || in_tiles_;
 }
 
@@ -306,6 +371,14 @@ void Simulation<D>::look_for_room(double elapsed, std::uint64_t collisions) {
   }
   looked_for_ = 0.0;
   looked_at_ = 0;
+}
+
+// Under other laws or with other particles, those of before do not count.
+template <int D>
+void Simulation<D>::look_anew() {
+  looked_for_ = 0.0;
+  looked_at_ = 0;
+  crowded_ = false;
 }
 
 // The base moves before the run stops, so that the state is valid.
@@ -408,8 +481,13 @@ void Simulation<D>::move_piston(double position, double start, double end) {
 
 template <int D>
 void Simulation<D>::every(double start, double interval, std::function<void(double)> action,
-                          std::uint64_t done) {
-  timers_.push_back({RegularTimes(start, interval), done, std::move(action)});
+                          std::uint64_t done, const void* owner) {
+  timers_.push_back({RegularTimes(start, interval), done, std::move(action), owner});
+}
+
+template <int D>
+void Simulation<D>::end_timers(const void* owner) {
+  timers_.remove_if([&](const Timer& timer) { return timer.owner == owner; });
 }
 
 template <int D>
@@ -451,6 +529,13 @@ double Simulation<D>::next_kick() const {
 
 template <int D>
 RunState<D> Simulation<D>::save() const {
+  RunState<D> saved = save_without_particles();
+  loop_.save_to(saved);
+  return saved;
+}
+
+template <int D>
+RunState<D> Simulation<D>::save_without_particles() const {
   RunState<D> saved;
   saved.gravity = model_.gravity;
   saved.wall_motions = wall_motions<D>(model_);
@@ -459,9 +544,9 @@ RunState<D> Simulation<D>::save() const {
   saved.base = clock_.base();
   saved.start_speed = start_speed_;
   saved.kick_interval = kick_interval<D>(model_);
-  saved.kick_origin = kick_origin_;
+  saved.kick_origin = kick_times_.start();
   saved.kicks_since_origin = kicks_since_origin_;
-  loop_.save_to(saved);
+  saved.now = loop_.now();
   return saved;
 }
 

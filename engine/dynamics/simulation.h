@@ -1,10 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <functional>
+#include <list>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/dynamics/boundary.h"
@@ -43,6 +44,18 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
+  /// Continues from another saved run under other laws, as a new simulation would, with the same
+  /// observers and timers. prepare() must complete as after construction in parts.
+  void restart(const Model<D>& model, RunState<D> saved);
+  /// Changes the laws now, in one pass over the particles. If flights do not continue, as under
+  /// another gravity or motion of a wall, all events are planned again. A changed interval of kicks
+  /// and changed walls: see above. All events up to now must have been processed, as after
+  /// run_until(). Throws PhysicalStop if a wall would overlap a particle; nothing then has changed.
+  void set_laws(const Model<D>& model);
+  /// Particles enter at rest at these positions, with the highest numbers. Throws PhysicalStop if
+  /// one overlaps another particle or a wall; the run then cannot continue.
+  void add_particles(const std::vector<Vec<D>>& positions);
+
   /// Prepares the particles in parts for the run. Returns false at a request to pause, and true
   /// once all is done. Throws PhysicalStop as the constructors do.
   bool prepare(const StopRequest& pause);
@@ -67,9 +80,11 @@ class Simulation {
 
   /// Calls action(time) at start, start + interval, start + 2 interval, ... when run_until()
   /// reaches these times, after the physical events and kicks of the same time. interval = 0: once.
-  /// A continued run skips the first `done` times.
+  /// A continued run skips the first `done` times. `owner` names the timer for end_timers().
   void every(double start, double interval, std::function<void(double)> action,
-             std::uint64_t done = 0);
+             std::uint64_t done = 0, const void* owner = nullptr);
+  /// Ends all timers of an owner. An action must not end its own timer.
+  void end_timers(const void* owner);
   /// Whether the next of these times should have been long ago. A run would catch up with all that
   /// are missing.
   bool is_overdue(double start, double interval, std::uint64_t done) const;
@@ -81,14 +96,19 @@ class Simulation {
   /// Gives the particles of a puff, which are at rest, their velocities now. As at a nudge, all
   /// events up to now must have been processed.
   void start_puff(const std::vector<NewVelocity<D>>& velocities);
+  /// Counts a change of laws of the scene, see EventCounts.
+  void count_law_change() { loop_.count_law_change(); }
   /// Moves the rest position of the right wall, a piston, from its present place to `position` on
   /// the x axis, at constant velocity from `start`, the time now, to `end`. All events up to now
   /// must have been processed.
   void move_piston(double position, double start, double end);
   /// The state that determines the run's future, together with the model and the timers.
   RunState<D> save() const;
-  /// Reports every event from now on to an observer, which must outlive the simulation.
+  /// Reports every event from now on to an observer, which must outlive the simulation or be
+  /// removed, see Observation.
   void add_observer(Observer<D>& observer) { loop_.add_observer(observer); }
+  /// Reports nothing to an observer from now on.
+  void remove_observer(const Observer<D>& observer) { loop_.remove_observer(observer); }
 
   /// Simulation time up to which events have been processed.
   double time() const { return clock_.absolute(base_time()); }
@@ -133,6 +153,7 @@ class Simulation {
     RegularTimes times;
     std::uint64_t count;  // times it has fired
     std::function<void(double)> action;
+    const void* owner;  // null: none
 
     double next() const { return times.of(count); }
   };
@@ -142,6 +163,9 @@ class Simulation {
     typename EventLoop<D>::Preparation loop;
   };
 
+  RunState<D> save_without_particles() const;
+  void set_kicks();
+  void make_tiles();
   Timer* due_timer(double stop);
   void fire(Timer& timer);
   bool kick_is_due(double stop) const;
@@ -151,6 +175,8 @@ class Simulation {
   void allow_speed(double speed);
   void set_velocities(const std::vector<NewVelocity<D>>& velocities,
                       std::uint64_t EventCounts::*count);
+  double bearable_overlap() const;
+  void look_anew();
   void look_for_room(double elapsed, std::uint64_t collisions);
   void attend_to(typename EventLoop<D>::Halt halt);
   void choose_way();
@@ -166,14 +192,15 @@ class Simulation {
   Model<D> model_;
   Clock clock_;
   Boundary<D> boundary_;
-  double start_speed_;       // see RunState
-  double kick_origin_;       // simulation time from which kicks are counted
-  RegularTimes kick_times_;  // the first is the origin
-  std::uint64_t kicks_since_origin_;
-  std::deque<Timer> timers_;  // keep their addresses while an action adds timers
+  double start_speed_ = 0.0;  // see RunState
+  RegularTimes kick_times_{0.0};  // the first is the time from which kicks are counted
+  std::uint64_t kicks_since_origin_ = 0;
+  std::list<Timer> timers_;  // keep their addresses while an action adds timers
   EventLoop<D> loop_;
   std::unique_ptr<Preparation> preparation_;  // null: complete
   std::unique_ptr<Foresight<D>> foresight_;   // null: one thread, or a small gas
+  int threads_ = 1;                           // of foresight_
+  TileSizes tile_sizes_;
   bool in_tiles_ = false;                     // whether foresight_ finds the events now
   int failures_ = 0;               // bases in succession on which tiles had no certificate
   int until_tried_ = 0;            // moves of the base before tiles are tried again
@@ -182,6 +209,43 @@ class Simulation {
   double looked_for_ = 0.0;        // time and collisions since the last look for room
   std::uint64_t looked_at_ = 0;
   bool crowded_ = false;  // whether the watchdog looks for particles without room
+};
+
+/// Keeps an observer at a simulation from now on, until the end of its own life. The simulation
+/// must outlive it.
+template <int D>
+class Observation {
+ public:
+  Observation(Simulation<D>& simulation, Observer<D>& observer)
+      : simulation_(simulation), observer_(observer) {
+    simulation.add_observer(observer);
+  }
+  ~Observation() { simulation_.remove_observer(observer_); }
+  Observation(const Observation&) = delete;
+  Observation& operator=(const Observation&) = delete;
+
+ private:
+  Simulation<D>& simulation_;
+  Observer<D>& observer_;
+};
+
+/// Timers of a simulation that end with this object. The simulation must outlive it.
+template <int D>
+class Timers {
+ public:
+  explicit Timers(Simulation<D>& simulation) : simulation_(simulation) {}
+  ~Timers() { simulation_.end_timers(this); }
+  Timers(const Timers&) = delete;
+  Timers& operator=(const Timers&) = delete;
+
+  /// Adds a timer, see Simulation::every.
+  void every(double start, double interval, std::function<void(double)> action,
+             std::uint64_t done = 0) {
+    simulation_.every(start, interval, std::move(action), done, this);
+  }
+
+ private:
+  Simulation<D>& simulation_;
 };
 
 extern template class Simulation<2>;

@@ -203,6 +203,11 @@ void CellIntegrals<D>::on_base_moved(double shift) {
 }
 
 template <int D>
+void CellIntegrals<D>::on_laws() {
+  dissipates_ = simulation_.model().dissipates();
+}
+
+template <int D>
 void CellIntegrals<D>::sample() {
   const State<D> state = simulation_.state();
   for (std::size_t i = 0; i < state.positions.size(); ++i) {

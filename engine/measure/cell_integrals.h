@@ -68,6 +68,7 @@ class CellIntegrals : public Observer<D> {
   void on_wall(const WallCollision<D>& collision) override;
   void on_kick(const Kick<D>& kick) override;
   void on_base_moved(double shift) override;
+  void on_laws() override;
 
   /// Takes a sample of all particles at the simulation's time (snapshot estimator).
   void sample();

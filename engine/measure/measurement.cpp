@@ -66,11 +66,14 @@ template <int D>
 Measurement<D>::Measurement(Simulation<D>& simulation, const Measure& measure, double end)
     : simulation_(simulation),
       measure_(measure),
+      end_(end),
       balanced_(std::erase_if(measure_.fields, is_residual) > 0),
       totals_(simulation),
       series_start_(series_start(measure.series_interval, simulation.time())),
-      observables_(simulation, measure) {
-  plan_averages(end);
+      particles_(simulation.particles().size()),
+      own_(simulation, *this),
+      of_totals_(simulation, totals_) {
+  plan_averages();
   observe();
 }
 
@@ -79,29 +82,72 @@ Measurement<D>::Measurement(Simulation<D>& simulation, const Measure& measure, d
                             ArchiveReader saved, Averages averages)
     : simulation_(simulation),
       measure_(measure),
+      end_(end),
       balanced_(std::erase_if(measure_.fields, is_residual) > 0),
       totals_(simulation),
-      observables_(simulation, measure) {
+      particles_(simulation.particles().size()),
+      own_(simulation, *this),
+      of_totals_(simulation, totals_) {
+  plan_averages();
   bool continues = false;
   visit_series(saved);
   saved(continues);
   if (continues && averages == Averages::GoOn) {
     visit_averages(saved);
-    if (started_) observables_.restore(saved, averages_start_);
+    if (started_) observables_->restore(saved, averages_start_);
     saved.finish();
     saved.require(window_ > 0.0);
-  } else {
-    plan_averages(end);
   }
   saved.require(!is_overdue());
   observe();
 }
 
+// Plans averages without windows.
 template <int D>
-void Measurement<D>::plan_averages(double end) {
+void Measurement<D>::plan_averages() {
   averages_start_ = std::max(measure_.burn_in, simulation_.time());
-  const double span = end - averages_start_;
+  const double span = end_ - averages_start_;
   window_ = span / windows_in(span, measure_.series_interval);
+  started_ = false;
+  windows_.clear();
+  columns_.clear();
+  parts_ = {};
+  residuals_ = {};
+  samples_ = 0;
+  of_cells_.reset();
+  of_balance_.reset();
+  cells_.reset();
+  balance_.reset();
+  observables_.emplace(simulation_, measure_);
+}
+
+// A flight is booked at its end, with the gravity of that time. With other spins the fields need
+// other sums, and the energy of cells changes.
+template <int D>
+bool averages_go_on(const RunState<D>& saved, bool same_inertia, const Model<D>& model,
+                    const Measure& measure) {
+  const bool same_spins =
+      saved.flights.empty() || (saved.spins.empty() != model.spins && same_inertia);
+  return (measure.fields.empty() || same_spins) && keeps_flights<D>(saved, model);
+}
+
+template <int D>
+void Measurement<D>::before_laws(const Model<D>& next) {
+  const Model<D>& present = simulation_.model();
+  const bool same_spins = particles_ == 0 || (present.spins == next.spins &&
+                                              present.inertia == next.inertia);
+  const bool same_sums = same_spins || (measure_.fields.empty() && !balanced_);
+  go_on_ = same_sums && keeps_flights<D>(present, next);
+}
+
+template <int D>
+void Measurement<D>::on_laws() {
+  fit_series();
+  const bool same_particles = particles_ == simulation_.particles().size();
+  particles_ = simulation_.particles().size();
+  if (go_on_ && same_particles) return;
+  plan_averages();
+  observe();
 }
 
 // Whether a sample or the end of a window should have been long ago.
@@ -127,7 +173,7 @@ std::string Measurement<D>::save() {
   writer(continues);
   if (!continues) return writer.written();
   visit_averages(writer);
-  if (started_) observables_.save(writer);
+  if (started_) observables_->save(writer);
   return writer.written();
 }
 
@@ -135,7 +181,12 @@ template <int D>
 template <class Archive>
 void Measurement<D>::visit_series(Archive& io) {
   io(totals_, series_start_, series_);
-  // A change of laws may have added spins.
+  fit_series();
+}
+
+// A change of laws may have added spins.
+template <int D>
+void Measurement<D>::fit_series() {
   if (!simulation_.spins().empty()) series_.spin_temperature.resize(series_.times.size());
 }
 
@@ -143,26 +194,26 @@ void Measurement<D>::visit_series(Archive& io) {
 template <int D>
 template <class Archive>
 void Measurement<D>::visit_averages(Archive& io) {
-  auto& [simulation, measure, balanced, totals, cells, balance, series_start, averages_start,
+  auto& [simulation, measure, end, balanced, totals, cells, balance, series_start, averages_start,
          window, started, counts_at_start, windows, columns, parts, residuals, samples, series,
-         observables] = *this;
+         observables, go_on, particles, own, of_totals, of_cells, of_balance, timers] = *this;
   io(averages_start, window, started, counts_at_start, windows, columns, parts, residuals, samples);
   if (started && !cells && !balance) open_cells();
   if (cells) io(*cells);
   if (balance) io(*balance);
 }
 
+// Timers of samples come before timers of windows, so that a sample at a window's end belongs to
+// it.
 template <int D>
 void Measurement<D>::observe() {
-  simulation_.add_observer(totals_);
-  observe_cells();
-  simulation_.every(
+  timers_.reset();  // of former averages
+  timers_.emplace(simulation_);
+  timers_->every(
       series_start_, measure_.series_interval, [this](double time) { sample(time); },
       series_.times.size());
-  // Timers of samples come before timers of windows, so that a sample at a window's end belongs to
-  // it.
   if (samples_cells()) {
-    simulation_.every(
+    timers_->every(
         averages_start_ + measure_.interval, measure_.interval,
         [this](double) {
           ++samples_;
@@ -170,8 +221,8 @@ void Measurement<D>::observe() {
         },
         samples_);
   }
-  observables_.add_timers(averages_start_);
-  simulation_.every(
+  observables_->add_timers(*timers_, averages_start_);
+  timers_->every(
       averages_start_, window_, [this](double) { started_ ? close_window() : start(); },
       started_ ? windows_.size() + 1 : 0);
 }
@@ -195,31 +246,26 @@ void Measurement<D>::start() {
   totals_.close_window();
   counts_at_start_ = simulation_.counts();
   open_cells();
-  observe_cells();
-  observables_.start();
+  observables_->start();
 }
 
 template <int D>
 void Measurement<D>::open_cells() {
   const IntVec<D> cells = cells_of<D>(measure_);
-  if (balanced_) balance_.emplace(simulation_, cells);
+  if (balanced_) of_balance_.emplace(simulation_, balance_.emplace(simulation_, cells));
   if (measure_.fields.empty()) return;
   Coarsening coarsening{measure_.estimator, {}};
   if (measure_.kernel == Kernel::Gaussian) coarsening.gaussian_width = measure_.width;
-  cells_.emplace(simulation_, cells, moment_layout<D>(measure_.fields, simulation_.model().spins),
-                 coarsening);
-}
-
-template <int D>
-void Measurement<D>::observe_cells() {
-  if (cells_) simulation_.add_observer(*cells_);
-  if (balance_) simulation_.add_observer(*balance_);
+  of_cells_.emplace(
+      simulation_,
+      cells_.emplace(simulation_, cells,
+                     moment_layout<D>(measure_.fields, simulation_.model().spins), coarsening));
 }
 
 template <int D>
 void Measurement<D>::close_window() {
   windows_.push_back(totals_.close_window());
-  observables_.close_window();
+  observables_->close_window();
   if (cells_) {
     CellSums window = cells_->close_window();
     columns_.push_back(columns_of(window, cells_->grid(), measure_.profile_axis));
@@ -299,7 +345,7 @@ Measured Measurement<D>::means() const {
   measured.axis_temperatures.resize(D);
   measured.kurtosis_excess.resize(D);
   measured.pressure.resize(2 * D);
-  measured.observables = observables_.results();
+  measured.observables = observables_->results();
   if (count == 0.0) return measured;
   const auto estimate = [&](const auto& quantity) {
     return mean_estimate(series_of(windows_, quantity));
@@ -386,6 +432,8 @@ Measured Measurement<D>::result(const StopRequest& stop) {
 
 template double cells_memory<2>(const Measure&, bool);
 template double cells_memory<3>(const Measure&, bool);
+template bool averages_go_on<2>(const RunState<2>&, bool, const Model<2>&, const Measure&);
+template bool averages_go_on<3>(const RunState<3>&, bool, const Model<3>&, const Measure&);
 template class Measurement<2>;
 template class Measurement<3>;
 

@@ -77,15 +77,23 @@ struct Measured {
 template <int D>
 double cells_memory(const Measure& measure, bool spins);
 
+/// Whether averages of a saved run can continue under a model. They cannot under another gravity or
+/// wall motion. With fields they cannot if spins appear or change their inertia.
+template <int D>
+bool averages_go_on(const RunState<D>& saved, bool same_inertia, const Model<D>& model,
+                    const Measure& measure);
+
 /// Averages of a continued measurement.
 enum class Averages {
   GoOn,    ///< over windows before and after
   Restart  ///< from the burn-in or from now
 };
 
-/// Measures a simulation according to the scene's [measure] table.
+/// Measures a simulation according to the scene's [measure] table. After a change of laws or a puff
+/// the series and the energy balance continue. The averages restart as after averages_go_on(), and
+/// with other particles.
 template <int D>
-class Measurement {
+class Measurement final : private Observer<D> {
  public:
   /// Averages from burn_in, or from now if that is later, to the simulation time `end`.
   Measurement(Simulation<D>& simulation, const Measure& measure, double end);
@@ -95,6 +103,8 @@ class Measurement {
   /// averages continue as long as the run.
   Measurement(Simulation<D>& simulation, const Measure& measure, double end, ArchiveReader saved,
               Averages averages = Averages::GoOn);
+  Measurement(const Measurement&) = delete;
+  Measurement& operator=(const Measurement&) = delete;
 
   /// The results up to the simulation's time. Throws Interrupted.
   Measured result(const StopRequest& stop = {});
@@ -107,14 +117,15 @@ class Measurement {
   /// Duration of the windows of averages.
   double window() const { return window_; }
 
-  /// Ends all flights for the energy balance, before another simulation begins them here.
-  void end_flights() { totals_.end_flights(); }
   /// All results up to the simulation's time, for a checkpoint. Averages that end where they begin
   /// cannot continue.
   std::string save();
 
  private:
-  void plan_averages(double end);
+  void before_laws(const Model<D>& next) override;
+  void on_laws() override;
+  void plan_averages();
+  void fit_series();
   bool is_overdue() const;
   bool samples_cells() const;
   void observe();
@@ -125,13 +136,13 @@ class Measurement {
   void visit_averages(Archive& io);
   void start();
   void open_cells();
-  void observe_cells();
   void close_window();
   void close_balance();
   void add_maps(Measured& measured, const StopRequest& stop) const;
 
   Simulation<D>& simulation_;
   Measure measure_;  // without residuals among its fields
+  double end_;       // simulation time
   bool balanced_;    // whether residuals are requested
   Totals<D> totals_;
   std::optional<CellIntegrals<D>> cells_;
@@ -147,11 +158,18 @@ class Measurement {
   Residuals residuals_;
   std::uint64_t samples_ = 0;  // samples of the snapshot estimator so far
   TemperatureSeries series_;
-  Observables<D> observables_;
+  std::optional<Observables<D>> observables_;
+  bool go_on_ = true;       // whether the averages continue under the next laws
+  std::size_t particles_;  // number of them under the present laws
+  Observation<D> own_, of_totals_;
+  std::optional<Observation<D>> of_cells_, of_balance_;
+  std::optional<Timers<D>> timers_;
 };
 
 extern template double cells_memory<2>(const Measure&, bool);
 extern template double cells_memory<3>(const Measure&, bool);
+extern template bool averages_go_on<2>(const RunState<2>&, bool, const Model<2>&, const Measure&);
+extern template bool averages_go_on<3>(const RunState<3>&, bool, const Model<3>&, const Measure&);
 extern template class Measurement<2>;
 extern template class Measurement<3>;
 

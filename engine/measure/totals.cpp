@@ -24,8 +24,19 @@ double Totals<D>::energy_of_starts() const {
 }
 
 template <int D>
+static double inertia_of(const Model<D>& model) {
+  return moment_of_inertia(model.inertia, model.diameter);
+}
+
+template <int D>
 double Totals<D>::inertia() const {
-  return moment_of_inertia(simulation_.model().inertia, simulation_.model().diameter);
+  return inertia_of(simulation_.model());
+}
+
+// Under another moment of inertia the same spins have another energy.
+template <int D>
+void Totals<D>::change_inertia(double before, double after) {
+  energy_at_start_ += 0.5 * (after - before) * spin_squares_;
 }
 
 template <int D>
@@ -81,6 +92,15 @@ void Totals<D>::change(const ParticleChange<D>& particle, double time) {
   book_work(particle.position - particle.before.r);
 }
 
+template <int D>
+void Totals<D>::before_laws(const Model<D>& next) {
+  const Model<D>& present = simulation_.model();
+  integrate_to(simulation_.base_time());
+  change_inertia(inertia_of(present), inertia_of(next));
+  if (!keeps_flights<D>(present, next)) end_flights();
+}
+
+// Books the work of gravity on all flights up to now.
 template <int D>
 void Totals<D>::end_flights() {
   const Vec<D>& gravity = simulation_.model().gravity;

@@ -51,10 +51,7 @@ class Totals : public Observer<D> {
   void on_wall(const WallCollision<D>& collision) override;
   void on_kick(const Kick<D>& kick) override;
   void on_base_moved(double shift) override;
-
-  /// Books the work of gravity on all flights up to now. To be called only if another simulation
-  /// continues the run with flights that begin now.
-  void end_flights();
+  void before_laws(const Model<D>& next) override;
 
   /// The totals since the last call, or since the start.
   WindowTotals<D> close_window();
@@ -73,6 +70,8 @@ class Totals : public Observer<D> {
   double energy_of_starts() const;
   double inertia() const;
   void take_stock();
+  void end_flights();
+  void change_inertia(double before, double after);
   void book(double gained);
   void book_work(const Vec<D>& distance);
 
@@ -95,12 +94,10 @@ template <class Archive>
 void Totals<D>::visit(Archive& io) {
   auto& [simulation, energy_at_start, booked, booked_sizes, squares, momentum, spin_squares,
          integrated_to, window_start, integral, spin_integral, window] = *this;
-  const double inertia_here = inertia();
-  double inertia = inertia_here;
-  io(inertia, energy_at_start, booked, booked_sizes, squares, momentum, spin_squares, integrated_to,
-     window_start, integral, spin_integral, window);
-  // Under another moment of inertia the same spins have another energy.
-  energy_at_start += 0.5 * (inertia_here - inertia) * spin_squares;
+  double saved_inertia = inertia();
+  io(saved_inertia, energy_at_start, booked, booked_sizes, squares, momentum, spin_squares,
+     integrated_to, window_start, integral, spin_integral, window);
+  change_inertia(saved_inertia, inertia());
 }
 
 extern template class Totals<2>;

@@ -69,7 +69,7 @@ void CollisionCounts<D>::start() {
   numbers_.assign(count_, 0);
   pairs_.assign(counters(), 0);
   collided_.clear();
-  simulation_.add_observer(*this);
+  observation_.emplace(simulation_, *this);
 }
 
 template <int D>
@@ -91,7 +91,7 @@ void CollisionCounts<D>::restore(ArchiveReader& io) {
     io.require(collided_[k] < pairs_.size());
     pairs_[collided_[k]] = counts[k];
   }
-  simulation_.add_observer(*this);
+  observation_.emplace(simulation_, *this);
 }
 
 // The row of a pair is that of its first followed particle.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/dynamics/simulation.h"
@@ -15,7 +16,7 @@ namespace clatter {
 /// in a gas of more than 2048 particles, only the pairs of some particles with all others are
 /// followed.
 template <int D>
-class CollisionCounts final : public Observable, private Observer<D> {
+class CollisionCounts final : public Observable, public Observer<D> {
  public:
   /// Counts the collisions of `simulation`.
   explicit CollisionCounts(Simulation<D>& simulation);
@@ -42,6 +43,7 @@ class CollisionCounts final : public Observable, private Observer<D> {
   std::vector<std::uint32_t> numbers_;   // [N] of each particle in the interval
   std::vector<std::uint32_t> pairs_;     // [followed particles][N] in the interval
   std::vector<std::uint64_t> collided_;  // indices of pairs_ that are not 0
+  std::optional<Observation<D>> observation_;  // present after the start
 };
 
 extern template class CollisionCounts<2>;

@@ -75,7 +75,7 @@ void CollisionStatistics<D>::start() {
   Observable::start();
   partners_.resize(simulation_.particles().size());
   std::iota(partners_.begin(), partners_.end(), 0u);
-  simulation_.add_observer(*this);
+  observation_.emplace(simulation_, *this);
 }
 
 template <int D>
@@ -89,7 +89,7 @@ void CollisionStatistics<D>::restore(ArchiveReader& io) {
   Observable::restore(io);
   io(partners_);
   io.require(partners_.size() == simulation_.particles().size());
-  simulation_.add_observer(*this);
+  observation_.emplace(simulation_, *this);
 }
 
 template <int D>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/dynamics/simulation.h"
@@ -16,7 +17,7 @@ namespace clatter {
 /// "collisions.recollision_share" is the share of the collisions of two particles whose last
 /// collision was with each other.
 template <int D>
-class CollisionStatistics final : public Observable, private Observer<D> {
+class CollisionStatistics final : public Observable, public Observer<D> {
  public:
   explicit CollisionStatistics(Simulation<D>& simulation) : simulation_(simulation) {}
 
@@ -33,6 +34,7 @@ class CollisionStatistics final : public Observable, private Observer<D> {
   Simulation<D>& simulation_;
   std::vector<std::uint32_t>
       partners_;  // [N] of the last collision; its own number before the first
+  std::optional<Observation<D>> observation_;  // present after the start
 };
 
 extern template class CollisionStatistics<2>;

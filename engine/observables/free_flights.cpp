@@ -61,7 +61,7 @@ void FreeFlights<D>::start() {
   Observable::start();
   const std::size_t count = simulation_.particles().size();
   paths_.assign(count, {std::numeric_limits<double>::quiet_NaN()});
-  simulation_.add_observer(*this);
+  observation_.emplace(simulation_, *this);
 }
 
 template <int D>
@@ -75,7 +75,7 @@ void FreeFlights<D>::restore(ArchiveReader& io) {
   Observable::restore(io);
   io(paths_);
   io.require(paths_.size() == simulation_.particles().size());
-  simulation_.add_observer(*this);
+  observation_.emplace(simulation_, *this);
 }
 
 // Adds the flight that ends here. A path begins at a collision, so the flight belongs to it as a

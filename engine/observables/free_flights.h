@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "engine/dynamics/simulation.h"
@@ -11,7 +12,7 @@ namespace clatter {
 /// particles (theory 11.1). Walls and kicks bend a path and do not end it. Tables
 /// "free_flights.time" and "free_flights.path", means "free_flights.mean_time" and "..mean_path".
 template <int D>
-class FreeFlights final : public Observable, private Observer<D> {
+class FreeFlights final : public Observable, public Observer<D> {
  public:
   explicit FreeFlights(Simulation<D>& simulation) : simulation_(simulation) {}
 
@@ -42,6 +43,7 @@ class FreeFlights final : public Observable, private Observer<D> {
 
   Simulation<D>& simulation_;
   std::vector<Path> paths_;  // [N]
+  std::optional<Observation<D>> observation_;  // present after the start
 };
 
 /// Length of a flight of constant acceleration: the integral of |v + g t| from 0 to `duration`.

@@ -93,10 +93,10 @@ void Observables<D>::start() {
 }
 
 template <int D>
-void Observables<D>::add_timers(double begin) {
+void Observables<D>::add_timers(Timers<D>& timers, double begin) {
   for (Part& part : parts_) {
     if (!part.interval) continue;
-    simulation_.every(
+    timers.every(
         begin + *part.interval, *part.interval,
         [this, &part](double) {
           ++part.samples;

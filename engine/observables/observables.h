@@ -22,9 +22,9 @@ class Observables {
 
   /// Begins to accumulate, at the simulation's time.
   void start();
-  /// Adds the timers of samples to the simulation: each interval after `begin`. Samples that a
-  /// checkpoint contains are skipped.
-  void add_timers(double begin);
+  /// Adds the timers of samples: each interval after `begin`. Samples that a checkpoint contains are
+  /// skipped.
+  void add_timers(Timers<D>& timers, double begin);
   /// Ends a window of time. All windows have the same length.
   void close_window();
   /// The results of all windows.

@@ -4,16 +4,16 @@ namespace clatter {
 
 template <int D>
 PeriodicImages<D>::PeriodicImages(Simulation<D>& simulation)
-    : simulation_(simulation), of_flights_(simulation.particles().size()) {
-  for (std::size_t i = 0; i < of_flights_.size(); ++i) of_flights_[i] = -image_in_flight(i);
-  simulation.add_observer(*this);
+    : simulation_(simulation), observation_(simulation, *this) {
+  on_laws();
 }
 
+// Particles that enter begin with image 0.
 template <int D>
-PeriodicImages<D>::PeriodicImages(Simulation<D>& simulation, const PeriodicImages& before)
-    : PeriodicImages(simulation) {
-  const std::vector<IntVec<D>> images = before.images();
-  for (std::size_t i = 0; i < of_flights_.size(); ++i) of_flights_[i] += images[i];
+void PeriodicImages<D>::on_laws() {
+  while (of_flights_.size() < simulation_.particles().size()) {
+    of_flights_.push_back(-image_in_flight(of_flights_.size()));
+  }
 }
 
 // The next flight begins inside the box.

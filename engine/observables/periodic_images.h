@@ -14,13 +14,10 @@ class PeriodicImages : public Observer<D> {
  public:
   /// Watches a simulation from now on. All images are 0.
   explicit PeriodicImages(Simulation<D>& simulation);
-  /// Continues the images of `before`. The new simulation has the same particles at the same time,
-  /// and the one of `before` still exists.
-  PeriodicImages(Simulation<D>& simulation, const PeriodicImages& before);
-
   void on_collision(const PairCollision<D>& collision) override;
   void on_wall(const WallCollision<D>& collision) override;
   void on_kick(const Kick<D>& kick) override;
+  void on_laws() override;
 
   /// [N] images of the positions in Simulation::state(), at the simulation's time.
   std::vector<IntVec<D>> images() const;
@@ -37,6 +34,7 @@ class PeriodicImages : public Observer<D> {
 
   const Simulation<D>& simulation_;
   std::vector<IntVec<D>> of_flights_;  // [N] image of the box in which the current flight began
+  Observation<D> observation_;
 };
 
 extern template class PeriodicImages<2>;

@@ -45,13 +45,13 @@ std::size_t WallHits<D>::mean_size() const {
 template <int D>
 void WallHits<D>::start() {
   Observable::start();
-  simulation_.add_observer(*this);
+  observation_.emplace(simulation_, *this);
 }
 
 template <int D>
 void WallHits<D>::restore(ArchiveReader& io) {
   Observable::restore(io);
-  simulation_.add_observer(*this);
+  observation_.emplace(simulation_, *this);
 }
 
 template <int D>

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "engine/dynamics/simulation.h"
 #include "engine/observables/observable.h"
 
@@ -9,7 +11,7 @@ namespace clatter {
 /// after, and the energy gain. For each wall tables "wall_hits.SIDE.incoming" and "..outgoing", and
 /// means "..mean_energy_gain" and "..mean_incoming_speed".
 template <int D>
-class WallHits final : public Observable, private Observer<D> {
+class WallHits final : public Observable, public Observer<D> {
  public:
   explicit WallHits(Simulation<D>& simulation) : simulation_(simulation) {}
 
@@ -23,6 +25,7 @@ class WallHits final : public Observable, private Observer<D> {
   void on_wall(const WallCollision<D>& collision) override;
 
   Simulation<D>& simulation_;
+  std::optional<Observation<D>> observation_;  // present after the start
 };
 
 extern template class WallHits<2>;

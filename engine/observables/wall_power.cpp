@@ -44,7 +44,7 @@ template <int D>
 void WallPower<D>::start() {
   Observable::start();
   energy_ = {};
-  simulation_.add_observer(*this);
+  observation_.emplace(simulation_, *this);
 }
 
 template <int D>
@@ -57,7 +57,7 @@ template <int D>
 void WallPower<D>::restore(ArchiveReader& io) {
   Observable::restore(io);
   io(energy_);
-  simulation_.add_observer(*this);
+  observation_.emplace(simulation_, *this);
 }
 
 template <int D>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "engine/dynamics/simulation.h"
 #include "engine/observables/observable.h"
@@ -11,7 +12,7 @@ namespace clatter {
 /// Distribution of the power of the walls, averaged over consecutive intervals (theory 11.13).
 /// Tables "wall_power.SIDE" and "wall_power.total", means "..mean" and "..variance" of each.
 template <int D>
-class WallPower final : public Observable, private Observer<D> {
+class WallPower final : public Observable, public Observer<D> {
  public:
   WallPower(Simulation<D>& simulation, const WallPowerSettings& settings)
       : simulation_(simulation), settings_(settings) {}
@@ -30,6 +31,7 @@ class WallPower final : public Observable, private Observer<D> {
   Simulation<D>& simulation_;
   WallPowerSettings settings_;
   std::array<double, 2 * D> energy_{};  // from each wall since the last sample
+  std::optional<Observation<D>> observation_;  // present after the start
 };
 
 extern template class WallPower<2>;

@@ -7,12 +7,6 @@
 namespace clatter {
 
 template <int D>
-void ClickRecorder<D>::follow(Simulation<D>& next) {
-  simulation_ = &next;
-  next.add_observer(*this);
-}
-
-template <int D>
 std::vector<Click> ClickRecorder<D>::take() {
   stride_ = 1;
   skipped_ = 0;
@@ -34,10 +28,10 @@ template <int D>
 void ClickRecorder<D>::add(const Vec<D>& contact, const Vec<D>& momentum, double reduced_mass) {
   if (++skipped_ < stride_) return;
   skipped_ = 0;
-  const Model<D>& model = simulation_->model();
+  const Model<D>& model = simulation_.model();
   const double square = momentum.squaredNorm();
   const double place = model.wrapped(contact)[0] / model.box[0];
-  clicks_.push_back({simulation_->time(), std::clamp(place, 0.0, 1.0), std::sqrt(square),
+  clicks_.push_back({simulation_.time(), std::clamp(place, 0.0, 1.0), std::sqrt(square),
                      static_cast<double>(stride_) * square / (8.0 * reduced_mass)});
   if (clicks_.size() == most_) thin_out();
 }

@@ -31,11 +31,10 @@ class ClickRecorder final : private Observer<D> {
  public:
   /// Keeps all clicks, or at most `most` >= 2 until take(). Of more clicks it keeps every second
   /// one with twice its energy, every fourth, and so on. The sum of the energies is about the same.
-  explicit ClickRecorder(std::size_t most = std::numeric_limits<std::size_t>::max())
-      : most_(most) {}
+  explicit ClickRecorder(Simulation<D>& simulation,
+                         std::size_t most = std::numeric_limits<std::size_t>::max())
+      : simulation_(simulation), most_(most), observation_(simulation, *this) {}
 
-  /// Observes the next simulation of the run.
-  void follow(Simulation<D>& next);
   /// The clicks since the last call, in the order of the events.
   std::vector<Click> take();
 
@@ -45,11 +44,12 @@ class ClickRecorder final : private Observer<D> {
   void add(const Vec<D>& contact, const Vec<D>& momentum, double reduced_mass);
   void thin_out();
 
+  const Simulation<D>& simulation_;
   std::size_t most_;
-  const Simulation<D>* simulation_ = nullptr;
   std::vector<Click> clicks_;
   std::size_t stride_ = 1;   // collisions per click
   std::size_t skipped_ = 0;  // collisions since the last click
+  Observation<D> observation_;
 };
 
 extern template class ClickRecorder<2>;

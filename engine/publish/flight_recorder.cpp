@@ -8,25 +8,30 @@ namespace clatter {
 template <int D>
 FlightRecorder<D>::FlightRecorder(Simulation<D>& simulation, double span,
                                   std::optional<std::uint32_t> only)
-    : simulation_(simulation), span_(span), only_(only), since_(simulation.base_time()) {
-  simulation.add_observer(*this);
-}
+    : simulation_(simulation),
+      span_(span),
+      only_(only),
+      since_(simulation.base_time()),
+      observation_(simulation, *this) {}
 
-// A change of laws may begin new flights without an event; the old flights then end here.
 template <int D>
 FlightRecorder<D>::FlightRecorder(Simulation<D>& simulation, double span, FlightRecorder&& before)
     : simulation_(simulation),
       span_(span),
       only_(before.only_),
       since_(std::max(before.since_, simulation.base_time() - before.span_)),
-      ended_(std::move(before.ended_)) {
-  const auto& flights_before = before.simulation_.particles();
-  for (std::uint32_t i = 0; i < flights_before.size(); ++i) {
-    const Flight<D>& flight = flights_before[i].flight;
-    if (!keeps(i) || flight.time == simulation.particles()[i].flight.time) continue;
-    ended_.push_back({i, flight, simulation.base_time(), before.simulation_.model().gravity});
+      ended_(std::move(before.ended_)),
+      observation_(simulation, *this) {}
+
+template <int D>
+void FlightRecorder<D>::before_laws(const Model<D>& next) {
+  const Model<D>& present = simulation_.model();
+  if (keeps_flights<D>(present, next)) return;
+  for (std::uint32_t i = 0; i < simulation_.particles().size(); ++i) {
+    if (!keeps(i)) continue;
+    ended_.push_back(
+        {i, simulation_.particles()[i].flight, simulation_.base_time(), present.gravity});
   }
-  simulation.add_observer(*this);
 }
 
 template <int D>

@@ -17,14 +17,15 @@ class FlightRecorder : public Observer<D> {
   /// Watches a simulation from now on and keeps the flights of the last `span` > 0 of simulation
   /// time: those of all particles, or `only` those of one.
   FlightRecorder(Simulation<D>& simulation, double span, std::optional<std::uint32_t> only = {});
-  /// Continues with the flights of the recorder `before`, which are those of the same particles.
-  /// The new simulation has the same particles at the same time, possibly under other laws.
+  /// Continues with the flights of the recorder `before` of the same simulation, which are those of
+  /// the same particles.
   FlightRecorder(Simulation<D>& simulation, double span, FlightRecorder&& before);
 
   void on_collision(const PairCollision<D>& collision) override;
   void on_wall(const WallCollision<D>& collision) override;
   void on_kick(const Kick<D>& kick) override;
   void on_base_moved(double shift) override;
+  void before_laws(const Model<D>& next) override;
 
   /// Time covered by the kept flights, at most the span.
   double reach() const;
@@ -65,6 +66,7 @@ class FlightRecorder : public Observer<D> {
   double since_;                       // on the moving base
   std::vector<Ended> ended_;
   std::size_t forget_at_ = 0;  // number of flights at which old ones are removed
+  Observation<D> observation_;
 };
 
 }  // namespace clatter

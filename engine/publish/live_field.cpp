@@ -56,7 +56,8 @@ LiveField<D>::LiveField(Simulation<D>& simulation, const View& view)
       averages_(averages_for(simulation, view)),
       closure_(closure_for(simulation, view)),
       start_(simulation.time() + view.window / kWindowParts),
-      sampled_from_(simulation.time()) {
+      sampled_from_(simulation.time()),
+      timers_(simulation) {
   watch(simulation, view);
 }
 
@@ -69,7 +70,8 @@ LiveField<D>::LiveField(Simulation<D>& simulation, const View& view, LiveField&&
       start_(before.start_),
       closed_(before.closed_),
       sampled_from_(before.sampled_from_),
-      samples_(before.samples_) {
+      samples_(before.samples_),
+      timers_(simulation) {
   before.look();
   if (averages_ && before.averages_ &&
       averages_->observer.layout().size == before.averages_->observer.layout().size) {
@@ -84,7 +86,8 @@ LiveField<D>::LiveField(Simulation<D>& simulation, const View& view, ArchiveRead
     : field_(view.field),
       arrows_(view.arrows),
       averages_(averages_for(simulation, view)),
-      closure_(closure_for(simulation, view)) {
+      closure_(closure_for(simulation, view)),
+      timers_(simulation) {
   visit(saved);
   saved.finish();
   saved.require(!simulation.is_overdue(start_, view.window / kWindowParts, closed_) &&
@@ -102,7 +105,8 @@ std::string LiveField<D>::save() {
 template <int D>
 template <class Archive>
 void LiveField<D>::visit(Archive& io) {
-  auto& [field, arrows, averages, closure, start, closed, sampled_from, samples] = *this;
+  auto& [field, arrows, averages, closure, start, closed, sampled_from, samples, of_averages,
+         of_closure, timers] = *this;
   if (averages) io(averages->observer, averages->sums);
   if (closure) io(closure->observer, closure->sums);
   io(start, closed, sampled_from, samples);
@@ -116,15 +120,15 @@ bool LiveField<D>::samples(const View& view) const {
 
 template <int D>
 void LiveField<D>::watch(Simulation<D>& simulation, const View& view) {
-  if (averages_) simulation.add_observer(averages_->observer);
-  if (closure_) simulation.add_observer(closure_->observer);
+  if (averages_) of_averages_.emplace(simulation, averages_->observer);
+  if (closure_) of_closure_.emplace(simulation, closure_->observer);
   // Timers of samples come before timers of parts, so that a sample at a part's end belongs to it.
   if (samples(view)) {
     const auto sample = [this](double) {
       ++samples_;
       averages_->observer.sample();
     };
-    simulation.every(sampled_from_, view.interval, sample, samples_);
+    timers_.every(sampled_from_, view.interval, sample, samples_);
   }
   const auto close = [this](double) {
     ++closed_;
@@ -132,7 +136,7 @@ void LiveField<D>::watch(Simulation<D>& simulation, const View& view) {
     if (averages_) averages_->sums.next_part();
     if (closure_) closure_->sums.next_part();
   };
-  simulation.every(start_, view.window / kWindowParts, close, closed_);
+  timers_.every(start_, view.window / kWindowParts, close, closed_);
 }
 
 template <int D>

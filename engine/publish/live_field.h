@@ -20,8 +20,7 @@ class LiveField {
   /// them. Cells are about one diameter wide, at most 512 along an axis in 2D and 64 in 3D. The
   /// window has the length view.window, or up to an eighth more.
   LiveField(Simulation<D>& simulation, const View& view);
-  /// Continues the field `before`. The new simulation has the same particles at the same time,
-  /// possibly under other laws.
+  /// Continues the field `before` of the same simulation.
   LiveField(Simulation<D>& simulation, const View& view, LiveField&& before);
   /// Continues a saved field. The simulation must be at the same time under the same laws. Throws
   /// UserError if the view is another one.
@@ -33,6 +32,8 @@ class LiveField {
   /// change the averages.
   std::string save();
 
+  /// Ends the present part of the averages, before the laws change.
+  void look();
   /// Writes the field and arrows of the view into the snapshot. They are averages over the window
   /// up to the simulation's time, or since the start if that is shorter.
   void publish(Snapshot& snapshot);
@@ -55,7 +56,6 @@ class LiveField {
   static std::optional<Closure> closure_for(const Simulation<D>& simulation, const View& view);
   bool samples(const View& view) const;
   void watch(Simulation<D>& simulation, const View& view);
-  void look();
 
   std::optional<Field> field_;
   std::optional<Quantity> arrows_;
@@ -65,6 +65,8 @@ class LiveField {
   std::uint64_t closed_ = 0;          // parts closed since then
   double sampled_from_;               // simulation time of the first sample (snapshot estimator)
   std::uint64_t samples_ = 0;         // samples since then
+  std::optional<Observation<D>> of_averages_, of_closure_;
+  Timers<D> timers_;
 };
 
 }  // namespace clatter

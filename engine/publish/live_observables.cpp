@@ -10,38 +10,15 @@ LiveObservables<D>::LiveObservables(Simulation<D>& simulation, const Measure& me
     : measure_(measure),
       start_(simulation.time()),
       window_(window),
-      observables_(simulation, measure_) {
-  observables_.start();
-  add_timers(simulation);
-}
-
-template <int D>
-LiveObservables<D>::LiveObservables(Simulation<D>& simulation, LiveObservables& before)
-    : measure_(before.measure_),
-      start_(before.start_),
-      window_(before.window_),
-      windows_(before.windows_),
-      told_(before.told_),
       observables_(simulation, measure_),
-      tables_(before.tables_) {
-  ArchiveWriter saved;
-  before.observables_.save(saved);
-  ArchiveReader reader(saved.written(), "observables");
-  observables_.restore(reader, start_);
-  add_timers(simulation);
-}
-
-// A sample at the end of a window belongs to it.
-template <int D>
-void LiveObservables<D>::add_timers(Simulation<D>& simulation) {
-  observables_.add_timers(start_);
-  simulation.every(
-      start_ + window_, window_,
-      [this](double) {
-        observables_.close_window();
-        ++windows_;
-      },
-      windows_);
+      timers_(simulation) {
+  observables_.start();
+  observables_.add_timers(timers_, start_);
+  // A sample at the end of a window belongs to it.
+  timers_.every(start_ + window_, window_, [this](double) {
+    observables_.close_window();
+    ++windows_;
+  });
 }
 
 template <int D>

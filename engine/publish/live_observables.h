@@ -15,8 +15,6 @@ class LiveObservables {
   /// Observes a simulation in windows of length `window` (simulation time), whose scatter gives the
   /// standard errors.
   LiveObservables(Simulation<D>& simulation, const Measure& measure, double window);
-  /// Continues `before` on a simulation with the same particles and laws at the same time.
-  LiveObservables(Simulation<D>& simulation, LiveObservables& before);
   LiveObservables(const LiveObservables&) = delete;
   LiveObservables& operator=(const LiveObservables&) = delete;
 
@@ -25,8 +23,6 @@ class LiveObservables {
   std::shared_ptr<const std::vector<ResultTable>> tables(bool now);
 
  private:
-  void add_timers(Simulation<D>& simulation);
-
   Measure measure_;
   double start_;   // simulation time
   double window_;  // duration of each
@@ -35,6 +31,7 @@ class LiveObservables {
   Observables<D> observables_;
   std::shared_ptr<const std::vector<ResultTable>> tables_ =
       std::make_shared<const std::vector<ResultTable>>();
+  Timers<D> timers_;
 };
 
 extern template class LiveObservables<2>;

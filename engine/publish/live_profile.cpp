@@ -20,8 +20,10 @@ LiveProfile<D>::LiveProfile(Simulation<D>& simulation, double window, Axis axis)
     : axis_(axis),
       start_(simulation.time() + window),
       observer_(simulation, columns_in(simulation.model(), axis),
-                moment_layout<D>(profiled_fields(axis), simulation.model().spins)) {
-  watch(simulation, window);
+                moment_layout<D>(profiled_fields(axis), simulation.model().spins)),
+      observation_(simulation, observer_),
+      timers_(simulation) {
+  watch(window);
 }
 
 template <int D>
@@ -30,20 +32,21 @@ LiveProfile<D>::LiveProfile(Simulation<D>& simulation, double window, Axis axis,
     : axis_(axis),
       start_(0.0),
       observer_(simulation, columns_in(simulation.model(), axis),
-                moment_layout<D>(profiled_fields(axis), simulation.model().spins)) {
+                moment_layout<D>(profiled_fields(axis), simulation.model().spins)),
+      observation_(simulation, observer_),
+      timers_(simulation) {
   saved(*this);
   saved.require(!simulation.is_overdue(start_, window, closed_));
-  watch(simulation, window);
+  watch(window);
 }
 
 template <int D>
-void LiveProfile<D>::watch(Simulation<D>& simulation, double window) {
-  simulation.add_observer(observer_);
+void LiveProfile<D>::watch(double window) {
   const auto close = [this](double) {
     sums_.add(observer_.close_window());
     ++closed_;
   };
-  simulation.every(start_, window, close, closed_);
+  timers_.every(start_, window, close, closed_);
 }
 
 template <int D>
@@ -55,12 +58,13 @@ Profile LiveProfile<D>::profile() const {
 
 template <int D>
 LiveResiduals<D>::LiveResiduals(Simulation<D>& simulation, double window, Axis axis)
-    : observer_(simulation, columns_in(simulation.model(), axis)) {
+    : observer_(simulation, columns_in(simulation.model(), axis)),
+      observation_(simulation, observer_),
+      timers_(simulation) {
   const auto along = static_cast<int>(axis);
   profile_.axis = axis;
   profile_.width = simulation.model().box[along] / observer_.cells()[along];
-  simulation.add_observer(observer_);
-  simulation.every(simulation.time() + window, window, [this](double) {
+  timers_.every(simulation.time() + window, window, [this](double) {
     profile_.residuals.include(observer_.close_window().imbalances);
   });
 }

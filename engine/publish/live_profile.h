@@ -38,18 +38,20 @@ class LiveProfile {
   /// Visits the members that a checkpoint keeps.
   template <class Archive>
   void visit(Archive& io) {
-    auto& [axis, start, closed, observer, sums] = *this;
+    auto& [axis, start, closed, observer, sums, observation, timers] = *this;
     io(start, closed, observer, sums);
   }
 
  private:
-  void watch(Simulation<D>& simulation, double window);
+  void watch(double window);
 
   Axis axis_;
   double start_;              // simulation time at which the first window closes
   std::uint64_t closed_ = 0;  // windows closed since then
   CellIntegrals<D> observer_;
   PartSums<CellSums> sums_;
+  Observation<D> observation_;
+  Timers<D> timers_;
 };
 
 /// Residuals of the balance equations in columns along an axis.
@@ -75,6 +77,8 @@ class LiveResiduals {
  private:
   Balance<D> observer_;
   ResidualProfile profile_;
+  Observation<D> observation_;
+  Timers<D> timers_;
 };
 
 }  // namespace clatter

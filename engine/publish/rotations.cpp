@@ -22,16 +22,19 @@ SphereRotation SphereRotation::after(const Spin<3>& spin, double duration) const
 template <int D>
 Rotations<D>::Rotations(Simulation<D>& simulation)
     : simulation_(simulation),
-      turned_(simulation.particles().size(), {{}, simulation.base_time()}) {
-  simulation.add_observer(*this);
-}
+      turned_(simulation.particles().size(), {{}, simulation.base_time()}),
+      observation_(simulation, *this) {}
 
-// A change of laws keeps the spins, unless it adds or removes all of them. A puff adds particles.
 template <int D>
 Rotations<D>::Rotations(Simulation<D>& simulation, Rotations&& before)
-    : simulation_(simulation), turned_(std::move(before.turned_)) {
-  turned_.resize(simulation.particles().size(), {{}, simulation.base_time()});
-  simulation.add_observer(*this);
+    : simulation_(simulation),
+      turned_(std::move(before.turned_)),
+      observation_(simulation, *this) {}
+
+// A puff adds particles.
+template <int D>
+void Rotations<D>::on_laws() {
+  turned_.resize(simulation_.particles().size(), {{}, simulation_.base_time()});
 }
 
 template <int D>

@@ -48,14 +48,14 @@ class Rotations : public Observer<D> {
  public:
   /// Watches a simulation with spins from now on.
   explicit Rotations(Simulation<D>& simulation);
-  /// Continues the rotations of `before`. The new simulation has the same particles at the same
-  /// time.
+  /// Continues the rotations of `before` of the same simulation.
   Rotations(Simulation<D>& simulation, Rotations&& before);
 
   void on_collision(const PairCollision<D>& collision) override;
   void on_wall(const WallCollision<D>& collision) override;
   void on_kick(const Kick<D>& kick) override;
   void on_base_moved(double shift) override;
+  void on_laws() override;
 
   /// Continues from these rotations [N] at the simulation's time.
   void set_rotations(const std::vector<Rotation<D>>& rotations);
@@ -83,6 +83,7 @@ class Rotations : public Observer<D> {
 
   const Simulation<D>& simulation_;
   std::vector<Turned> turned_;  // [N]
+  Observation<D> observation_;
 };
 
 extern template class Rotations<2>;

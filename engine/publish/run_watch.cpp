@@ -6,30 +6,44 @@
 namespace clatter {
 
 template <int D>
-void RunWatch<D>::observe(Simulation<D>& simulation) {
-  totals_.emplace(simulation);
-  tally_at_laws_ = tally_;
-  simulation.add_observer(*totals_);
-  simulation.add_observer(last_);
-  if (picked_collisions_ && picked_collisions_->last())
-    last_collision_ = picked_collisions_->last();
-  simulation.add_observer(picked_collisions_.emplace(simulation, picked_));
-  if (clicks_) clicks_->follow(simulation);
-  lookahead_.reset();
-  profile_.reset();
-  residuals_.reset();
-  const double window = run_.laws().view.window / kWindowParts;
-  if (profiled_ == Profiled::Fields) profile_.emplace(simulation, window, profile_axis_);
-  if (profiled_ == Profiled::Balances) residuals_.emplace(simulation, window, profile_axis_);
-  observe_requested(simulation, window);
+RunWatch<D>::RunWatch(ScheduledRun<D>& run)
+    : run_(run),
+      totals_(run.simulation()),
+      picked_collisions_(run.simulation(), std::nullopt),
+      own_(run.simulation(), *this),
+      of_totals_(run.simulation(), *totals_),
+      of_last_(run.simulation(), last_),
+      of_picked_(run.simulation(), picked_collisions_) {
+  begin_averages();
 }
 
 template <int D>
-void RunWatch<D>::observe_requested(Simulation<D>& simulation, double window) {
+void RunWatch<D>::before_laws(const Model<D>&) {
+  close_window();
+}
+
+template <int D>
+void RunWatch<D>::on_laws() {
+  tally_at_laws_ = tally_;
+  lookahead_.reset();
+  begin_averages();
+}
+
+template <int D>
+void RunWatch<D>::begin_profile() {
+  profile_.reset();
+  residuals_.reset();
+  Simulation<D>& simulation = run_.simulation();
+  if (profiled_ == Profiled::Fields) profile_.emplace(simulation, window(), profile_axis_);
+  if (profiled_ == Profiled::Balances) residuals_.emplace(simulation, window(), profile_axis_);
+}
+
+template <int D>
+void RunWatch<D>::begin_averages() {
+  begin_profile();
   const Measure& measure = run_.laws().measure;
   if (measure.observables.empty()) return;
-  observables_ = same_laws_ ? std::make_unique<LiveObservables<D>>(simulation, *observables_)
-                            : std::make_unique<LiveObservables<D>>(simulation, measure, window);
+  observables_ = std::make_unique<LiveObservables<D>>(run_.simulation(), measure, window());
 }
 
 template <int D>
@@ -39,25 +53,12 @@ void RunWatch<D>::close_window() {
 
 template <int D>
 void RunWatch<D>::return_to(const Tally& tally) {
+  totals_.emplace(run_.simulation());
   tally_ = tally_at_laws_ = tally;
   steps_told_ = run_.simulation().counts().steps();
   last_.forget();
-  last_collision_.reset();
-}
-
-template <int D>
-void RunWatch<D>::show(const View& view) {
-  same_laws_ = true;
-  run_.show(view);
-  same_laws_ = false;
-}
-
-// Continues the run with the observers that are wanted now.
-template <int D>
-void RunWatch<D>::renew() {
-  same_laws_ = true;
-  run_.renew();
-  same_laws_ = false;
+  pick(picked_);
+  begin_averages();
 }
 
 template <int D>
@@ -66,27 +67,20 @@ void RunWatch<D>::show_profile(Profiled what, Axis axis) {
   if (what == profiled_ && axis == profile_axis_) return;
   profiled_ = what;
   profile_axis_ = axis;
-  renew();
+  begin_profile();
 }
 
-// A simulation without a recorder replaces the one with it.
 template <int D>
 void RunWatch<D>::listen(bool on) {
   if (on == (clicks_ != nullptr)) return;
-  if (on) {
-    clicks_ = std::make_unique<ClickRecorder<D>>(kMostClicks);
-    return clicks_->follow(run_.simulation());
-  }
-  const auto ended = std::exchange(clicks_, nullptr);
-  renew();
+  clicks_ = on ? std::make_unique<ClickRecorder<D>>(run_.simulation(), kMostClicks) : nullptr;
 }
 
 template <int D>
 void RunWatch<D>::pick(std::optional<std::uint32_t> particle) {
   if (particle && *particle >= run_.simulation().particles().size()) particle.reset();
   picked_ = particle;
-  last_collision_.reset();
-  picked_collisions_->watch(particle);
+  picked_collisions_.watch(particle);
   lookahead_.reset();
 }
 
@@ -135,7 +129,7 @@ void RunWatch<D>::tell(Frame& frame, bool halted) {
   }
   frame.contact_time_error = contact_time_error();
   frame.ledger_residual = totals_->ledger_residual();
-  frame.last_collision = picked_collisions_->last() ? picked_collisions_->last() : last_collision_;
+  frame.last_collision = picked_collisions_.last();
   frame.next_collision = next_collision(halted);
 }
 

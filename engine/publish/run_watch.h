@@ -18,29 +18,26 @@ namespace clatter {
 /// All that the frames of a run measure: its tally, the collisions of the picked particle, averages
 /// and observables, and the clicks of its collisions.
 template <int D>
-class RunWatch {
+class RunWatch final : private Observer<D> {
  public:
-  /// Watches no simulation before observe(). `run` must outlive this object.
-  explicit RunWatch(ScheduledRun<D>& run) : run_(run) {}
-  /// A watch of `run` with the averages of another watch.
-  RunWatch(ScheduledRun<D>& run, const RunWatch& other)
-      : run_(run), profiled_(other.profiled_), profile_axis_(other.profile_axis_) {}
+  /// Watches a run from now on. `run` must outlive this object.
+  explicit RunWatch(ScheduledRun<D>& run);
   RunWatch(const RunWatch&) = delete;
   RunWatch& operator=(const RunWatch&) = delete;
 
-  /// Observes a simulation of the run instead of the former one.
-  void observe(Simulation<D>& simulation);
   /// Adds what happened since the last call to the tally.
   void close_window();
   /// From the run's start to the last close_window().
   const Tally& tally() const { return tally_; }
-  /// The run has returned to an earlier state with this tally.
+  /// The run has gone to another state, with this tally. Averages restart.
   void return_to(const Tally& tally);
 
-  /// Shows a view of the run.
-  void show(const View& view);
   /// Frames have this profile, along an axis, from now on.
   void show_profile(Profiled what, Axis axis);
+  /// The same profile as another watch.
+  void show_profile_of(const RunWatch& other) {
+    show_profile(other.profiled_, other.profile_axis_);
+  }
   /// Begins or ends to record clicks.
   void listen(bool on);
   /// The clicks since the last call; empty: nobody listens.
@@ -58,8 +55,11 @@ class RunWatch {
   void tell(Frame& frame, bool halted);
 
  private:
-  void renew();
-  void observe_requested(Simulation<D>& simulation, double window);
+  void before_laws(const Model<D>& next) override;
+  void on_laws() override;
+  double window() const { return run_.laws().view.window / kWindowParts; }
+  void begin_profile();
+  void begin_averages();
   // Steps of the search for the next collision of the picked particle. Most particles collide
   // within a few collisions per particle.
   std::uint64_t longest_search() const {
@@ -74,9 +74,8 @@ class RunWatch {
   Tally tally_at_laws_ = tally_;  // at the last change of laws
   LastCollision<D> last_{run_};
   std::optional<std::uint32_t> picked_;
-  std::optional<CollisionWatch<D>> picked_collisions_;  // of the picked particle
-  std::optional<ParticleCollision> last_collision_;  // its last collision before a change of laws
-  std::optional<CollisionLookahead<D>> lookahead_;   // of the picked particle, from its first frame
+  CollisionWatch<D> picked_collisions_;             // of the picked particle
+  std::optional<CollisionLookahead<D>> lookahead_;  // of the picked particle, from its first frame
   std::uint64_t steps_told_ = 0;                     // the run's steps at the last frame
   Profiled profiled_ = Profiled::Nothing;
   Axis profile_axis_ = Axis::X;
@@ -84,7 +83,7 @@ class RunWatch {
   std::optional<LiveResiduals<D>> residuals_;
   std::unique_ptr<LiveObservables<D>> observables_;  // absent: the scene has none
   std::unique_ptr<ClickRecorder<D>> clicks_;         // absent: nobody listens
-  bool same_laws_ = false;  // the next simulation has the laws of the present one
+  Observation<D> own_, of_totals_, of_last_, of_picked_;
 };
 
 extern template class RunWatch<2>;

@@ -182,11 +182,10 @@ void ScheduledRun<D>::advance(Schedule schedule) {
   if (change.nudge) simulation_->check(*change.nudge);
   schedule.advance();
   if (!change.set.empty()) {
-    RunState<D> state = simulation_->save();
-    state.watchdog.reset();
-    if (!change.acts()) ++state.counts.law_changes;
-    go_on_as(std::make_unique<Simulation<D>>(model_of<D>(schedule.laws(), seed_), std::move(state)),
-             change.ramp ? Averages::Continue : Averages::Restart);
+    if (shown_) shown_->before_laws();
+    simulation_->set_laws(model_of<D>(schedule.laws(), seed_));
+    if (!change.acts()) simulation_->count_law_change();
+    if (shown_) shown_->on_laws(change.ramp.has_value());
   }
   if (change.nudge) simulation_->nudge(*change.nudge);
   if (change.piston) simulation_->move_piston(*change.piston, change.time, change.until);
@@ -194,64 +193,39 @@ void ScheduledRun<D>::advance(Schedule schedule) {
   schedule_ = std::move(schedule);
 }
 
-// Lists of the state that are shorter than that of the flights are extended by Simulation.
 template <int D>
 void ScheduledRun<D>::enter(const Puff& puff) {
-  RunState<D> state = simulation_->save();
-  state.watchdog.reset();
-  const std::vector<PuffParticle<D>> particles = puff_particles(state, puff, laws(), seed_);
+  const std::vector<PuffParticle<D>> particles =
+      puff_particles(simulation_->save(), puff, laws(), seed_);
   if (static_cast<int>(particles.size()) < puff.count) {
     throw PhysicalStop(
         fmt::format("the puff at t = {:.9g} has room for {} of {} particles; give "
                     "fewer, or a larger radius",
                     simulation_->time(), particles.size(), puff.count));
   }
+  auto next = static_cast<std::uint32_t>(simulation_->particles().size());
+  std::vector<Vec<D>> positions;
   std::vector<NewVelocity<D>> velocities;
   for (const auto& [position, velocity] : particles) {
-    velocities.push_back({static_cast<std::uint32_t>(state.flights.size()), velocity});
-    state.flights.push_back({position, Vec<D>::Zero(), state.now, 0});
+    positions.push_back(position);
+    velocities.push_back({next++, velocity});
   }
-  go_on_as(std::make_unique<Simulation<D>>(simulation_->model(), std::move(state)),
-           Averages::Restart);
+  simulation_->add_particles(positions);
+  simulation_->use_threads(threads_);
+  if (shown_) shown_->on_laws(false);
   simulation_->start_puff(velocities);
 }
 
-// Replaces the simulation by `next`, which has the same particles at the same time and perhaps
-// further ones, and hands all observers over.
-template <int D>
-void ScheduledRun<D>::go_on_as(std::unique_ptr<Simulation<D>> next, Averages averages) {
-  if (on_change) on_change(*next);
-  if (shown_) {
-    if (averages == Averages::Restart) shown_->drop_averages();
-    shown_ = std::make_unique<ViewObservers<D>>(*next, view_, exposure_, shown_.get());
-  }
-  simulation_ = std::move(next);
-  simulation_->use_threads(threads_);
-}
-
-template <int D>
-void ScheduledRun<D>::renew() {
-  go_on_as(std::make_unique<Simulation<D>>(simulation_->model(), simulation_->save()),
-           Averages::Continue);
-}
-
-// A simulation keeps its observers for ever, so the observers of another view need a new
-// simulation.
 template <int D>
 void ScheduledRun<D>::show(const View& view, double exposure) {
   view_ = view;
   exposure_ = exposure;
-  if (shown_) {
-    renew();
-  } else {
-    shown_ = std::make_unique<ViewObservers<D>>(*simulation_, view, exposure);
-  }
+  shown_ = std::make_unique<ViewObservers<D>>(*simulation_, view, exposure, shown_.get());
 }
 
 template <int D>
 void ScheduledRun<D>::show(const View& view, const std::string& saved, double exposure) {
   if (saved.empty()) return show(view, exposure);
-  if (std::exchange(shown_, nullptr)) renew();
   view_ = view;
   exposure_ = exposure;
   shown_ = std::make_unique<ViewObservers<D>>(*simulation_, view, exposure,
@@ -274,15 +248,12 @@ template <int D>
 void ScheduledRun<D>::return_to(const Scene& scene, double changed_until, const RunState<D>& state,
                                 const std::vector<Rotation<D>>& rotations) {
   Schedule schedule(scene, changed_until);
-  auto next = std::make_unique<Simulation<D>>(typename Simulation<D>::InParts(),
-                                              model_of<D>(schedule.laws(), seed_), state);
-  if (on_change) on_change(*next);
+  simulation_->restart(model_of<D>(schedule.laws(), seed_), state);
+  simulation_->use_threads(threads_);
   if (shown_) {
-    shown_ = std::make_unique<ViewObservers<D>>(*next, view_, exposure_);
+    shown_ = std::make_unique<ViewObservers<D>>(*simulation_, view_, exposure_);
     shown_->set_rotations(rotations);
   }
-  simulation_ = std::move(next);
-  simulation_->use_threads(threads_);
   schedule_ = std::move(schedule);
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,9 +21,7 @@ std::unique_ptr<Simulation<D>> simulation_of(const Scene& scene, std::uint64_t s
 /// The time a few rounding errors after a time. All events that belong to the time are before it.
 double settled_time(double time);
 
-/// A simulation with the changes of its scene, and the observers of its view. At a change a new
-/// simulation continues the run under the new laws, or with the new particles. All observers must
-/// then be handed over, see on_change.
+/// A simulation with the changes of its scene, and the observers of its view.
 template <int D>
 class ScheduledRun {
  public:
@@ -37,11 +34,14 @@ class ScheduledRun {
   ScheduledRun(const Scene& scene, std::uint64_t seed, const RunState<D>& saved,
                const StopRequest& stop = {});
 
+  ScheduledRun(ScheduledRun&&) = default;
+  ScheduledRun& operator=(ScheduledRun&&) = delete;
+
   /// As Simulation::prepare.
   bool prepare(const StopRequest& pause) { return simulation_->prepare(pause); }
-  /// As Simulation::use_threads, under all laws to come.
+  /// As Simulation::use_threads, also for another number of particles to come.
   void use_threads(int threads);
-  /// The current simulation; a change of laws replaces it.
+  /// The simulation.
   Simulation<D>& simulation() { return *simulation_; }
   const Simulation<D>& simulation() const { return *simulation_; }  ///< the same
   /// The scene with the current laws, without its changes.
@@ -91,16 +91,13 @@ class ScheduledRun {
   void show(const View& view, const std::string& saved, double exposure = 0.0);
   /// Current state of the view's observers, for a checkpoint; empty: none.
   std::string save_shown() const;
-  /// Continues with a new simulation, with the same bits and only the observers that on_change
-  /// hands over. This is the only way to remove observers.
-  void renew();
   /// Replaces the changes of the scene. Those up to the simulation's time have no effect. To be
   /// called after run_until() has returned true or after settle().
   void set_changes(std::vector<Change> changes);
   /// Continues from another state of the run. `scene` has the laws at that state and all changes,
   /// of which those after `changed_until` are to come. `rotations` are rotations() at that state.
-  /// Averages and flights of the view restart. run_until() completes the preparation of the
-  /// particles.
+  /// Averages and flights of the view restart. Other observers are those of before; they must begin
+  /// anew. run_until() completes the preparation of the particles.
   void return_to(const Scene& scene, double changed_until, const RunState<D>& state,
                  const std::vector<Rotation<D>>& rotations);
   /// [N] rotations of the particles that the view shows; empty: none.
@@ -108,19 +105,12 @@ class ScheduledRun {
   /// The gas at the simulation's time.
   Snapshot snapshot();
 
-  /// Called with the next simulation; simulation() still returns the previous one.
-  std::function<void(Simulation<D>& next)> on_change;
-
  private:
   void halt_at(double time);
   void halt_within(double delay);
   void make(const Change& change);
-  /// Averages of the view that continue or restart with another simulation.
-  enum class Averages { Continue, Restart };
-
   void advance(Schedule schedule);
   void enter(const Puff& puff);
-  void go_on_as(std::unique_ptr<Simulation<D>> next, Averages averages);
 
   Schedule schedule_;
   std::uint64_t seed_;

@@ -11,25 +11,31 @@ namespace clatter {
 template <int D>
 ViewObservers<D>::ViewObservers(Simulation<D>& simulation, const View& view, double exposure,
                                 ViewObservers* before)
-    : view_(view), exposure_(exposure) {
-  if (view.shows_averages()) watch_field(simulation, before);
-  if (exposure > 0.0 || view.trails) watch_flights(simulation, before);
-  if (view.tracer) watch_tracer(simulation, before);
-  if (simulation.model().spins) watch_spins(simulation, before);
+    : simulation_(simulation),
+      spins_(simulation.model().spins),
+      view_(view),
+      exposure_(exposure) {
+  if (view.shows_averages()) watch_field(before);
+  if (exposure > 0.0 || view.trails) watch_flights(before);
+  if (view.tracer) watch_tracer(before);
+  if (spins_) watch_spins(before);
 }
 
 template <int D>
 ViewObservers<D>::ViewObservers(Simulation<D>& simulation, const View& view, double exposure,
                                 ArchiveReader saved)
-    : view_(view), exposure_(exposure) {
+    : simulation_(simulation),
+      spins_(simulation.model().spins),
+      view_(view),
+      exposure_(exposure) {
   if (view.shows_averages()) {
     std::string averages;
     saved(averages);
-    field_.emplace(simulation, view, ArchiveReader(averages, "averages"));
+    field_.emplace(simulation_, view, ArchiveReader(averages, "averages"));
   }
-  if (exposure > 0.0 || view.trails) watch_flights(simulation, nullptr);
-  if (view.tracer) watch_tracer(simulation, nullptr);
-  if (simulation.model().spins) watch_spins(simulation, nullptr);
+  if (exposure > 0.0 || view.trails) watch_flights(nullptr);
+  if (view.tracer) watch_tracer(nullptr);
+  if (spins_) watch_spins(nullptr);
   if (flights_) saved(*flights_);
   if (traced_) saved(*traced_);
   if (rotations_) saved(*rotations_);
@@ -50,6 +56,19 @@ std::string ViewObservers<D>::save() {
 }
 
 template <int D>
+void ViewObservers<D>::before_laws() {
+  if (field_) field_->look();
+}
+
+template <int D>
+void ViewObservers<D>::on_laws(bool averages_go_on) {
+  const bool spins = simulation_.model().spins;
+  if (field_ && !(averages_go_on && spins == spins_)) field_.emplace(simulation_, view_);
+  if (spins && !rotations_) rotations_.emplace(simulation_);
+  spins_ = spins;
+}
+
+template <int D>
 std::vector<Rotation<D>> ViewObservers<D>::rotations() const {
   return rotations_ ? rotations_->rotations() : std::vector<Rotation<D>>();
 }
@@ -60,40 +79,40 @@ void ViewObservers<D>::set_rotations(const std::vector<Rotation<D>>& rotations) 
 }
 
 template <int D>
-void ViewObservers<D>::watch_field(Simulation<D>& simulation, ViewObservers* before) {
+void ViewObservers<D>::watch_field(ViewObservers* before) {
   if (before && before->field_ && before->view_.averages_like(view_)) {
-    field_.emplace(simulation, view_, std::move(*before->field_));
+    field_.emplace(simulation_, view_, std::move(*before->field_));
   } else {
-    field_.emplace(simulation, view_);
+    field_.emplace(simulation_, view_);
   }
 }
 
 template <int D>
-void ViewObservers<D>::watch_flights(Simulation<D>& simulation, ViewObservers* before) {
+void ViewObservers<D>::watch_flights(ViewObservers* before) {
   const double span = std::max(exposure_, view_.trails.value_or(0.0));
   if (before && before->flights_) {
-    flights_.emplace(simulation, span, std::move(*before->flights_));
+    flights_.emplace(simulation_, span, std::move(*before->flights_));
   } else {
-    flights_.emplace(simulation, span);
+    flights_.emplace(simulation_, span);
   }
 }
 
 template <int D>
-void ViewObservers<D>::watch_tracer(Simulation<D>& simulation, ViewObservers* before) {
+void ViewObservers<D>::watch_tracer(ViewObservers* before) {
   const auto& [particle, time] = *view_.tracer;
   if (before && before->traced_ && before->view_.tracer->particle == particle) {
-    traced_.emplace(simulation, time, std::move(*before->traced_));
+    traced_.emplace(simulation_, time, std::move(*before->traced_));
   } else {
-    traced_.emplace(simulation, time, static_cast<std::uint32_t>(particle));
+    traced_.emplace(simulation_, time, static_cast<std::uint32_t>(particle));
   }
 }
 
 template <int D>
-void ViewObservers<D>::watch_spins(Simulation<D>& simulation, ViewObservers* before) {
+void ViewObservers<D>::watch_spins(ViewObservers* before) {
   if (before && before->rotations_) {
-    rotations_.emplace(simulation, std::move(*before->rotations_));
+    rotations_.emplace(simulation_, std::move(*before->rotations_));
   } else {
-    rotations_.emplace(simulation);
+    rotations_.emplace(simulation_);
   }
 }
 

@@ -17,8 +17,7 @@ template <int D>
 class ViewObservers {
  public:
   /// Watches a simulation for `view`, with an exposure time `exposure` >= 0 per picture. With
-  /// `before` it continues the data of those observers. The new simulation then has the same
-  /// particles at the same time.
+  /// `before` it continues the data of those observers of the same simulation.
   ViewObservers(Simulation<D>& simulation, const View& view, double exposure,
                 ViewObservers* before = nullptr);
   /// Continues saved observers. The simulation must be at the same time under the same laws. Throws
@@ -29,8 +28,11 @@ class ViewObservers {
 
   /// The state that determines later pictures, together with simulation and view; empty: none.
   std::string save();
-  /// Ends the averages, so that observers which continue these begin new ones.
-  void drop_averages() { field_.reset(); }
+  /// To be called before the laws change.
+  void before_laws();
+  /// Watches the simulation under its new laws or with its new particles. The averages continue or
+  /// restart.
+  void on_laws(bool averages_go_on);
   /// [N] rotations of the particles at the simulation's time; empty: they have no spins.
   std::vector<Rotation<D>> rotations() const;
   /// Continues from these rotations, as rotations() returned them at the simulation's time.
@@ -39,11 +41,13 @@ class ViewObservers {
   void publish(Snapshot& snapshot);
 
  private:
-  void watch_field(Simulation<D>& simulation, ViewObservers* before);
-  void watch_flights(Simulation<D>& simulation, ViewObservers* before);
-  void watch_tracer(Simulation<D>& simulation, ViewObservers* before);
-  void watch_spins(Simulation<D>& simulation, ViewObservers* before);
+  void watch_field(ViewObservers* before);
+  void watch_flights(ViewObservers* before);
+  void watch_tracer(ViewObservers* before);
+  void watch_spins(ViewObservers* before);
 
+  Simulation<D>& simulation_;
+  bool spins_;  // whether particles had spins when the field began
   View view_;
   double exposure_;
   std::optional<LiveField<D>> field_;

@@ -54,7 +54,7 @@ class RunOf : public WatchedRun {
     return watch_.last_collision().found();
   }
   void go_back(double time) override;
-  void show(const View& view) override { watch_.show(view); }
+  void show(const View& view) override { run_.show(view); }
   void show_profile(Profiled what, Axis axis) override { watch_.show_profile(what, axis); }
   void listen(bool on) override { watch_.listen(on); }
   std::vector<Click> take_clicks() override { return watch_.take_clicks(); }
@@ -66,8 +66,6 @@ class RunOf : public WatchedRun {
   }
 
  private:
-  void observe_all();
-
   // The part of a run after a change in the past.
   struct Future {
     double from = 0.0;  // time of the change
@@ -83,6 +81,7 @@ class RunOf : public WatchedRun {
     std::optional<double> from = {};  // time of the recorded state that it started from
   };
 
+  void note_changes();
   SavedState<D> saved_state();
   void record(bool stopped = false);
   void save_head();
@@ -98,6 +97,7 @@ class RunOf : public WatchedRun {
   std::shared_ptr<const Scene> scene_;  // of the last frame
   RunRecord<D> record_;
   std::shared_ptr<const Scene> recorded_laws_;  // of the last recorded state; nullptr: others now
+  std::uint64_t changes_ = 0;                   // that these scenes have
   bool settled_ = false;                        // all events up to the present time are processed
   double head_ = 0.0;                           // latest time reached before the present one
   std::size_t record_bytes_;
@@ -115,7 +115,6 @@ RunOf<D>::RunOf(const Scene& scene, std::uint64_t seed, State<D> start, std::siz
       record_(record_bytes),
       record_bytes_(record_bytes) {
   run_.show(scene.view);
-  observe_all();
   SavedState<D> first = saved_state();
   first.changed_until = -std::numeric_limits<double>::infinity();
   record_.add(std::move(first));
@@ -124,7 +123,7 @@ RunOf<D>::RunOf(const Scene& scene, std::uint64_t seed, State<D> start, std::siz
 template <int D>
 RunOf<D>::RunOf(const RunOf& of, const SavedState<D>& now)
     : run_(of.run_.scene(), of.run_.seed(), now.run),
-      watch_(run_, of.watch_),
+      watch_(run_),
       started_(of.started_),
       record_(of.record_),
       head_(of.head_),
@@ -132,7 +131,7 @@ RunOf<D>::RunOf(const RunOf& of, const SavedState<D>& now)
       futures_(of.futures_),
       forked_at_(of.forked_at_) {
   run_.show(of.run_.laws().view);
-  observe_all();
+  watch_.show_profile_of(of.watch_);
   return_to(now, of.run_.scene().changes);
 }
 
@@ -142,22 +141,19 @@ std::unique_ptr<WatchedRun> RunOf<D>::copy() {
   return std::make_unique<RunOf>(*this, saved_state());
 }
 
-// Observes the present simulation, and those under later laws.
+// Forgets the scenes of before the last change of the run.
 template <int D>
-void RunOf<D>::observe_all() {
-  run_.on_change = [this](Simulation<D>& next) {
-    watch_.close_window();
-    watch_.observe(next);
-    scene_.reset();
-    recorded_laws_.reset();
-  };
-  watch_.observe(run_.simulation());
+void RunOf<D>::note_changes() {
+  if (std::exchange(changes_, counts().changes()) == counts().changes()) return;
+  scene_.reset();
+  recorded_laws_.reset();
 }
 
 // The present state. The particles of the start are those of the run's start.
 template <int D>
 SavedState<D> RunOf<D>::saved_state() {
   watch_.close_window();
+  note_changes();
   if (!recorded_laws_) {
     Scene laws = run_.laws();
     laws.particles.start = {};
@@ -226,6 +222,8 @@ void RunOf<D>::return_to(const SavedState<D>& saved, const std::vector<Change>& 
   scene.changes = changes;
   run_.return_to(scene, saved.changed_until, saved.run, saved.rotations);
   watch_.return_to(saved.tally);
+  scene_.reset();
+  recorded_laws_.reset();
   settled_ = !saved.stopped;
 }
 
@@ -385,6 +383,7 @@ bool RunOf<D>::search_back(const StopRequest& pause) {
 
 template <int D>
 void RunOf<D>::tell(Frame& frame, bool halted) {
+  note_changes();
   if (!scene_) scene_ = std::make_shared<const Scene>(run_.present_scene());
   watch_.tell(frame, halted);
   frame.snapshot = run_.snapshot();

@@ -105,7 +105,6 @@ struct RecordedRun {
   void record(const std::string& saved) {
     const FilmPlots film{scene.view.plots, scene.measure.profile_axis, kSpeed};
     recorder = std::make_unique<PlotRecorder<2>>(run, film, saved);
-    run.on_change = [this](Simulation<2>& next) { recorder->follow(next); };
   }
 };
 

@@ -143,15 +143,19 @@ TEST_CASE("Measurement: it resumes at any time, bit for bit") {
       const Run straight = started(scene, measure);
       straight.simulation->run_until(kEnd);
       Run halted = started(scene, measure);
+      const auto resume = [&](Run& run) {
+        Run next = taken_up(scene, measure, run);
+        std::swap(run, next);
+      };
       // Times in the burn-in, at its end, within a window, and at the end of a window.
       for (const double time : {0.0, 1.0, 2.1, kBurnIn, 3.4, 10.0, 11.2, 25.0, 43.6}) {
         halted.simulation->run_until(time);
-        halted = taken_up(scene, measure, halted);
+        resume(halted);
       }
       // And between two events of the same run.
       for (int k = 0; k < 200 && halted.simulation->time() < kEnd; ++k) {
         halted.simulation->run_until(kEnd, halted.simulation->counts().collisions() + 1);
-        halted = taken_up(scene, measure, halted);
+        resume(halted);
       }
       halted.simulation->run_until(kEnd);
       check_same(halted, straight);

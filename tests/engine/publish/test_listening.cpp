@@ -38,8 +38,7 @@ const Frame& obey_and_hear(SlicedWorker& engine, Command command, Stretches& hea
 
 std::vector<Click> clicks_between(const Scene& scene, double from, double to) {
   ScheduledRun<2> run(scene, 1);
-  ClickRecorder<2> recorder;
-  recorder.follow(run.simulation());
+  ClickRecorder<2> recorder(run.simulation());
   run.run_until(from);
   recorder.take();
   run.run_until(to);
@@ -151,9 +150,7 @@ TEST_CASE("Listening: a stretch has the number of scenes and laws that the user 
 TEST_CASE("Listening: of many clicks a bounded number remains, evenly and with their energy") {
   ScheduledRun<2> run(heard_disks(), 1);
   constexpr std::size_t kMost = 64;
-  ClickRecorder<2> all, some(kMost);
-  all.follow(run.simulation());
-  some.follow(run.simulation());
+  ClickRecorder<2> all(run.simulation()), some(run.simulation(), kMost);
   for (const double time : {50.0, 60.0}) {
     CAPTURE(time);
     run.run_until(time);
