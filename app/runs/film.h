@@ -123,10 +123,10 @@ class Film {
   View view_;
   FilmState state_;
   std::vector<std::unique_ptr<Companion>> companions_;
-  std::deque<FilmCell> cells_;  ///< of the run, then of its companions
+  std::deque<FilmCell> cells_;              ///< of the run, then of its companions
   std::optional<ClickRecorder<D>> clicks_;  ///< from the first frame on, if the film has sound
-  std::optional<PlotRecorder<D>> plots_;  ///< absent: no plots
-  std::optional<PlotStrip> strip_;        ///< present with plots
+  std::optional<PlotRecorder<D>> plots_;    ///< absent: no plots
+  std::optional<PlotStrip> strip_;          ///< present with plots
 };
 
 extern template class Film<2>;

@@ -273,8 +273,8 @@ void Simulation<D>::use_threads(int threads, const TileSizes& sizes) {
 // The way is chosen at the next event.
 template <int D>
 void Simulation<D>::make_tiles() {
-  foresight_ = std::make_unique<Foresight<D>>(model_, boundary_, particles().size(), threads_,
-                                              tile_sizes_);
+  foresight_ =
+      std::make_unique<Foresight<D>>(model_, boundary_, particles().size(), threads_, tile_sizes_);
   if (foresight_->tiles() < 2) foresight_.reset();
   until_tried_ = 0;
   way_is_open_ = foresight_ || in_tiles_;

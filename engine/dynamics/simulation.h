@@ -192,7 +192,7 @@ class Simulation {
   Model<D> model_;
   Clock clock_;
   Boundary<D> boundary_;
-  double start_speed_ = 0.0;  // see RunState
+  double start_speed_ = 0.0;      // see RunState
   RegularTimes kick_times_{0.0};  // the first is the time from which kicks are counted
   std::uint64_t kicks_since_origin_ = 0;
   std::list<Timer> timers_;  // keep their addresses while an action adds timers
@@ -201,7 +201,7 @@ class Simulation {
   std::unique_ptr<Foresight<D>> foresight_;   // null: one thread, or a small gas
   int threads_ = 1;                           // of foresight_
   TileSizes tile_sizes_;
-  bool in_tiles_ = false;                     // whether foresight_ finds the events now
+  bool in_tiles_ = false;          // whether foresight_ finds the events now
   int failures_ = 0;               // bases in succession on which tiles had no certificate
   int until_tried_ = 0;            // moves of the base before tiles are tried again
   bool watched_in_tiles_ = false;  // whether tiles also run a gas that is watched

@@ -134,8 +134,8 @@ bool averages_go_on(const RunState<D>& saved, bool same_inertia, const Model<D>&
 template <int D>
 void Measurement<D>::before_laws(const Model<D>& next) {
   const Model<D>& present = simulation_.model();
-  const bool same_spins = particles_ == 0 || (present.spins == next.spins &&
-                                              present.inertia == next.inertia);
+  const bool same_spins =
+      particles_ == 0 || (present.spins == next.spins && present.inertia == next.inertia);
   const bool same_sums = same_spins || (measure_.fields.empty() && !balanced_);
   go_on_ = same_sums && keeps_flights<D>(present, next);
 }

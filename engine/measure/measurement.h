@@ -159,7 +159,7 @@ class Measurement final : private Observer<D> {
   std::uint64_t samples_ = 0;  // samples of the snapshot estimator so far
   TemperatureSeries series_;
   std::optional<Observables<D>> observables_;
-  bool go_on_ = true;       // whether the averages continue under the next laws
+  bool go_on_ = true;      // whether the averages continue under the next laws
   std::size_t particles_;  // number of them under the present laws
   Observation<D> own_, of_totals_;
   std::optional<Observation<D>> of_cells_, of_balance_;

@@ -38,11 +38,11 @@ class CollisionCounts final : public Observable, public Observer<D> {
   std::size_t counters() const;
 
   Simulation<D>& simulation_;
-  std::size_t count_;                    // of particles
-  std::size_t stride_;                   // the pairs of each stride_-th particle are followed
-  std::vector<std::uint32_t> numbers_;   // [N] of each particle in the interval
-  std::vector<std::uint32_t> pairs_;     // [followed particles][N] in the interval
-  std::vector<std::uint64_t> collided_;  // indices of pairs_ that are not 0
+  std::size_t count_;                          // of particles
+  std::size_t stride_;                         // the pairs of each stride_-th particle are followed
+  std::vector<std::uint32_t> numbers_;         // [N] of each particle in the interval
+  std::vector<std::uint32_t> pairs_;           // [followed particles][N] in the interval
+  std::vector<std::uint64_t> collided_;        // indices of pairs_ that are not 0
   std::optional<Observation<D>> observation_;  // present after the start
 };
 

@@ -42,7 +42,7 @@ class FreeFlights final : public Observable, public Observer<D> {
   double& extend(const ParticleChange<D>& change, double time);
 
   Simulation<D>& simulation_;
-  std::vector<Path> paths_;  // [N]
+  std::vector<Path> paths_;                    // [N]
   std::optional<Observation<D>> observation_;  // present after the start
 };
 

@@ -22,8 +22,8 @@ class Observables {
 
   /// Begins to accumulate, at the simulation's time.
   void start();
-  /// Adds the timers of samples: each interval after `begin`. Samples that a checkpoint contains are
-  /// skipped.
+  /// Adds the timers of samples: each interval after `begin`. Samples that a checkpoint contains
+  /// are skipped.
   void add_timers(Timers<D>& timers, double begin);
   /// Ends a window of time. All windows have the same length.
   void close_window();

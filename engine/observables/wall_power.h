@@ -30,7 +30,7 @@ class WallPower final : public Observable, public Observer<D> {
 
   Simulation<D>& simulation_;
   WallPowerSettings settings_;
-  std::array<double, 2 * D> energy_{};  // from each wall since the last sample
+  std::array<double, 2 * D> energy_{};         // from each wall since the last sample
   std::optional<Observation<D>> observation_;  // present after the start
 };
 

@@ -76,7 +76,7 @@ class RunWatch final : private Observer<D> {
   std::optional<std::uint32_t> picked_;
   CollisionWatch<D> picked_collisions_;             // of the picked particle
   std::optional<CollisionLookahead<D>> lookahead_;  // of the picked particle, from its first frame
-  std::uint64_t steps_told_ = 0;                     // the run's steps at the last frame
+  std::uint64_t steps_told_ = 0;                    // the run's steps at the last frame
   Profiled profiled_ = Profiled::Nothing;
   Axis profile_axis_ = Axis::X;
   std::optional<LiveProfile<D>> profile_;  // if profiled_ is Fields

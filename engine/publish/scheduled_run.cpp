@@ -182,10 +182,11 @@ void ScheduledRun<D>::advance(Schedule schedule) {
   if (change.nudge) simulation_->check(*change.nudge);
   schedule.advance();
   if (!change.set.empty()) {
-    if (shown_) shown_->before_laws();
+    const bool averages_go_on = change.ramp.has_value();
+    if (shown_ && averages_go_on) shown_->before_laws();
     simulation_->set_laws(model_of<D>(schedule.laws(), seed_));
     if (!change.acts()) simulation_->count_law_change();
-    if (shown_) shown_->on_laws(change.ramp.has_value());
+    if (shown_) shown_->on_laws(averages_go_on);
   }
   if (change.nudge) simulation_->nudge(*change.nudge);
   if (change.piston) simulation_->move_piston(*change.piston, change.time, change.until);

@@ -11,10 +11,7 @@ namespace clatter {
 template <int D>
 ViewObservers<D>::ViewObservers(Simulation<D>& simulation, const View& view, double exposure,
                                 ViewObservers* before)
-    : simulation_(simulation),
-      spins_(simulation.model().spins),
-      view_(view),
-      exposure_(exposure) {
+    : simulation_(simulation), spins_(simulation.model().spins), view_(view), exposure_(exposure) {
   if (view.shows_averages()) watch_field(before);
   if (exposure > 0.0 || view.trails) watch_flights(before);
   if (view.tracer) watch_tracer(before);
@@ -24,10 +21,7 @@ ViewObservers<D>::ViewObservers(Simulation<D>& simulation, const View& view, dou
 template <int D>
 ViewObservers<D>::ViewObservers(Simulation<D>& simulation, const View& view, double exposure,
                                 ArchiveReader saved)
-    : simulation_(simulation),
-      spins_(simulation.model().spins),
-      view_(view),
-      exposure_(exposure) {
+    : simulation_(simulation), spins_(simulation.model().spins), view_(view), exposure_(exposure) {
   if (view.shows_averages()) {
     std::string averages;
     saved(averages);

@@ -28,7 +28,7 @@ class ViewObservers {
 
   /// The state that determines later pictures, together with simulation and view; empty: none.
   std::string save();
-  /// To be called before the laws change.
+  /// Ends the present part of averages that continue under the next laws.
   void before_laws();
   /// Watches the simulation under its new laws or with its new particles. The averages continue or
   /// restart.

@@ -139,11 +139,16 @@ TEST_CASE("Window: the table of bench window has the cost of its pictures") {
   CHECK(row["count"] == 100);
   CHECK(outcome.err.starts_with("window of 1280x720, "));
   const std::string printed = std::regex_replace(outcome.out, std::regex("[ \n]+"), " ");
-  CHECK(printed == fmt::format(" N median ms 99 % ms 100 {:.2f} {:.2f} ",
+  CHECK(printed == fmt::format(" N median ms 99 % ms change ms build ms 100 {:.2f} {:.2f} {:.2f} "
+                               "{:.2f} ",
                                row["median_milliseconds"].get<double>(),
-                               row["percentile_99_milliseconds"].get<double>()));
+                               row["percentile_99_milliseconds"].get<double>(),
+                               row["change_milliseconds"].get<double>(),
+                               row["build_milliseconds"].get<double>()));
   CHECK(row["median_milliseconds"] > 0.0);
   CHECK(row["percentile_99_milliseconds"] >= row["median_milliseconds"]);
+  CHECK(row["change_milliseconds"] > 0.0);
+  CHECK(row["build_milliseconds"] > 0.0);
 }
 
 TEST_CASE("Window: steps of the wheel zoom out, and back in") {

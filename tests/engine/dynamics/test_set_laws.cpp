@@ -46,7 +46,8 @@ std::vector<NamedChange<D>> law_changes() {
   return {
       {"nothing", [](Model<D>&) {}},
       {"restitution", [](Model<D>& m) { m.restitution = 0.5; }},
-      {"friction", [](Model<D>& m) {
+      {"friction",
+       [](Model<D>& m) {
          m.roughness = {.friction = 0.3, .tangential_restitution = 0.5};
          m.spins = true;
        }},
