@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "app/measure/measure_run.h"
 #include "app/results/result_json.h"
-#include "app/runs/measure_run.h"
 #include "app/runs/run.h"
 #include "app/system/process_usage.h"
 #include "engine/checkpoint/archive.h"
@@ -20,7 +20,7 @@
 #include "engine/error.h"
 #include "engine/measure/measurement.h"
 #include "engine/scene/scene_file.h"
-#include "engine/scene/text.h"
+#include "engine/text.h"
 #include "render/camera_path.h"
 #include "render/context/context.h"
 #include "render/gl/canvas.h"

@@ -2,6 +2,12 @@
 
 #include "render/palette.h"
 
+// Colours follow from the ground, the colour of the background (contrast_maps.h). Zero of a field
+// is the ground itself, and its largest value has twice the contrast. The slowest particle has a
+// contrast ratio of at least 3 to every field. A smooth field is a mean of neighbouring cells
+// (plane_map.h), which the texture unit interpolates. Files have the exact cells. The colours of
+// thermal walls are on the shown scale of speeds (WallColours).
+
 namespace clatter {
 
 /// Colour maps that depend on the ground, the colour of the background. A field rises from the

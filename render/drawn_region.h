@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "engine/publish/snapshot.h"
+#include "engine/picture/snapshot.h"
 #include "render/eye.h"
 
 namespace clatter {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "engine/publish/snapshot.h"
+#include "engine/picture/snapshot.h"
 #include "render/eye.h"
 
 namespace clatter {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "engine/publish/snapshot.h"
+#include "engine/picture/snapshot.h"
 #include "render/camera.h"
 
 namespace clatter {

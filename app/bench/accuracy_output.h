@@ -5,7 +5,7 @@
 
 #include "app/bench/accuracy.h"
 #include "app/bench/pictures.h"
-#include "render/layers/plot.h"
+#include "render/charts/plot.h"
 
 namespace clatter {
 

@@ -16,7 +16,7 @@
 #include "app/system/process_usage.h"
 #include "engine/dimension.h"
 #include "engine/error.h"
-#include "engine/publish/scheduled_run.h"
+#include "engine/run/scheduled_run.h"
 #include "engine/system/allocation.h"
 #include "engine/system/write_file.h"
 

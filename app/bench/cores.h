@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/bench/engine.h"
-#include "render/layers/plot.h"
+#include "render/charts/plot.h"
 
 namespace clatter {
 

@@ -17,7 +17,7 @@
 #include "engine/error.h"
 #include "engine/physics/lattice.h"
 #include "engine/physics/theory.h"
-#include "engine/publish/scheduled_run.h"
+#include "engine/run/scheduled_run.h"
 #include "engine/system/platform.h"
 #include "engine/system/write_file.h"
 

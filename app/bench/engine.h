@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
-#include "render/layers/plot.h"
+#include "render/charts/plot.h"
 
 namespace clatter {
 

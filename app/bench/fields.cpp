@@ -14,7 +14,7 @@
 #include "app/system/process_usage.h"
 #include "engine/measure/balance.h"
 #include "engine/measure/profile.h"
-#include "engine/publish/scheduled_run.h"
+#include "engine/run/scheduled_run.h"
 #include "engine/scene/field.h"
 #include "engine/scene/scene_file.h"
 #include "engine/system/write_file.h"

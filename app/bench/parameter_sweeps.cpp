@@ -8,7 +8,7 @@
 
 #include "app/bench/run_result.h"
 #include "app/bench/time_stepped.h"
-#include "engine/scene/text.h"
+#include "engine/text.h"
 
 namespace clatter {
 

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "app/system/process_usage.h"
-#include "engine/publish/publish.h"
-#include "engine/publish/scheduled_run.h"
+#include "engine/picture/snapshot.h"
+#include "engine/run/scheduled_run.h"
 #include "render/context/context.h"
 #include "render/gl/canvas.h"
 #include "render/layers/renderer.h"

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "render/layers/plot.h"
+#include "render/charts/plot.h"
 
 namespace clatter {
 

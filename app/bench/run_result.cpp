@@ -7,7 +7,7 @@
 #include "app/bench/time_stepped.h"
 #include "app/system/process_usage.h"
 #include "engine/measure/measurement.h"
-#include "engine/publish/scheduled_run.h"
+#include "engine/run/scheduled_run.h"
 #include "engine/system/platform.h"
 
 namespace clatter {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/dynamics/model.h"
+#include "engine/laws/model.h"
 #include "engine/physics/collision.h"
 #include "engine/physics/walls.h"
 

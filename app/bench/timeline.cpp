@@ -12,7 +12,7 @@
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
 #include "app/system/process_usage.h"
-#include "engine/publish/watched_run.h"
+#include "engine/live/watched_run.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {
@@ -31,7 +31,7 @@ Jumps measure(const Scene& scene, double end) {
   while (!run->run_until(end, kNoLimit, run->counts().steps() + kSlice)) {
   }
   Frame frame;
-  run->tell(frame, true);
+  run->fill(frame, true);
   Jumps jumps{.megabytes = 1e-6 * static_cast<double>(frame.record_bytes), .seconds = {}};
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> times(0.0, end);
@@ -40,7 +40,7 @@ Jumps measure(const Scene& scene, double end) {
     const double began = cpu_seconds();
     run->go_back(time);
     run->run_until(time, kNoLimit, kNoLimit);
-    run->tell(frame, true);
+    run->fill(frame, true);
     jumps.seconds.push_back(cpu_seconds() - began);
   }
   std::ranges::sort(jumps.seconds);

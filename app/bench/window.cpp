@@ -19,7 +19,7 @@
 #include "app/system/outputs.h"
 #include "app/view/desktop.h"
 #include "app/view/gui.h"
-#include "engine/publish/scheduled_run.h"
+#include "engine/run/scheduled_run.h"
 #include "engine/scene/scene_file.h"
 #include "engine/system/write_file.h"
 #include "render/context/glfw_context.h"

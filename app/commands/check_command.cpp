@@ -9,14 +9,14 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/flags.h"
-#include "app/runs/feature_cost.h"
+#include "app/measure/feature_cost.h"
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
 #include "engine/dynamics/tile_sizes.h"
 #include "engine/physics/theory.h"
-#include "engine/scene/piston.h"
-#include "engine/scene/text.h"
+#include "engine/scene/act_checks.h"
 #include "engine/system/allocation.h"
+#include "engine/text.h"
 
 namespace clatter {
 

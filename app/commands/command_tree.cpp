@@ -4,7 +4,7 @@
 
 #include "app/commands/help_formatter.h"
 #include "engine/error.h"
-#include "engine/scene/text.h"
+#include "engine/text.h"
 
 namespace clatter {
 

@@ -1,7 +1,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/flag_checks.h"
-#include "app/runs/convert.h"
-#include "engine/scene/limits.h"
+#include "app/convert/convert.h"
+#include "engine/laws/limits.h"
 
 namespace clatter {
 

@@ -6,9 +6,9 @@
 
 #include "app/commands/flag_checks.h"
 #include "app/commands/flags.h"
-#include "app/runs/film_limits.h"
+#include "app/film/film_limits.h"
 #include "engine/error.h"
-#include "engine/scene/text.h"
+#include "engine/text.h"
 #include "engine/whole_number.h"
 #include "render/output/cells.h"
 #include "render/output/wav_file.h"

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "app/commands/flags.h"
-#include "app/runs/compared_scenes.h"
-#include "app/runs/film.h"
-#include "app/runs/film_job.h"
+#include "app/film/compared_scenes.h"
+#include "app/film/film.h"
+#include "app/film/film_job.h"
 #include "app/runs/run.h"
 #include "render/context/context.h"
 #include "render/output/movie.h"

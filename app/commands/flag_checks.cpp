@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "app/runs/accuracy_goal.h"
-#include "app/runs/film_limits.h"
+#include "app/film/film_limits.h"
+#include "app/measure/accuracy_goal.h"
 #include "engine/error.h"
 #include "engine/whole_number.h"
 

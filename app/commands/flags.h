@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "app/runs/accuracy_goal.h"
-#include "app/runs/compared_scenes.h"
+#include "app/film/compared_scenes.h"
+#include "app/measure/accuracy_goal.h"
 #include "app/runs/options.h"
 #include "app/system/batch_script.h"
 #include "render/context/context.h"

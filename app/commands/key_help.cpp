@@ -13,9 +13,9 @@
 #include "engine/scene/field.h"
 #include "engine/scene/key_docs.h"
 #include "engine/scene/scene.h"
-#include "engine/scene/text.h"
 #include "engine/system/read_file.h"
 #include "engine/system/write_file.h"
+#include "engine/text.h"
 
 namespace clatter {
 

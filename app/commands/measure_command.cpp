@@ -3,7 +3,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/flag_checks.h"
 #include "app/commands/flags.h"
-#include "app/runs/measure_run.h"
+#include "app/measure/measure_run.h"
 
 namespace clatter {
 

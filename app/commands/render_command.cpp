@@ -8,10 +8,10 @@
 #include "app/commands/film_settings.h"
 #include "app/commands/flag_checks.h"
 #include "app/commands/flags.h"
-#include "app/runs/compared_scenes.h"
-#include "app/runs/film.h"
-#include "app/runs/film_job.h"
-#include "app/runs/film_limits.h"
+#include "app/film/compared_scenes.h"
+#include "app/film/film.h"
+#include "app/film/film_job.h"
+#include "app/film/film_limits.h"
 #include "app/runs/picture_scene.h"
 #include "app/runs/run.h"
 #include "app/system/exit_code.h"
@@ -85,7 +85,7 @@ bool draw(Film<D>& film, const FrameRange& frames, FrameSink& sink, Run<D>& run,
 }
 
 // Files that other programs wrote among the pieces are not removed.
-void tell_kept_folder(const RenderOptions& options) {
+void note_kept_folder(const RenderOptions& options) {
   const std::filesystem::path folder = pieces_folder(options.out);
   std::error_code ignored;
   if (!options.film() || options.common.quiet || !std::filesystem::exists(folder, ignored)) return;
@@ -114,7 +114,7 @@ int film_run(const RenderOptions& options, const std::vector<ComparedScene>& sce
   run.put_aside();
   if (drawn && !options.common.quiet) std::fprintf(stderr, "%s\n", options.out.c_str());
   const int code = run.end();
-  if (code == kOk) tell_kept_folder(options);
+  if (code == kOk) note_kept_folder(options);
   return code;
 }
 

@@ -54,7 +54,7 @@ std::vector<std::pair<int, int>> ids_of(const std::vector<std::string>& words) {
   return ids;
 }
 
-void tell_omitted_points(const SweepFolder& folder, const Sweep& sweep) {
+void note_omitted_points(const SweepFolder& folder, const Sweep& sweep) {
   for (const SweepPoint& point : points_without_goal(folder, sweep)) {
     std::fprintf(stderr, "note: the results at %s have no mean '%s'; the refinement omits them\n",
                  settings_text(point).c_str(), sweep.accuracy.of.c_str());
@@ -71,7 +71,7 @@ int measure_sweep(const SweepFolder& folder, const SweepOptions& options) {
     if (code == kInterrupted || !sweep.refinement) return code;
     const std::vector<SweepPoint> points = refined_points(folder, sweep);
     if (points.empty()) {
-      if (!options.common.quiet) tell_omitted_points(folder, sweep);
+      if (!options.common.quiet) note_omitted_points(folder, sweep);
       return code;
     }
     folder.add(points, sweep.seeds);

@@ -33,7 +33,7 @@ int view(const ViewOptions& options) {
     require_few_gases(options.compare, "window");
     const auto gases =
         compared_scenes({window.scene, window.seed}, options.compare, options.common, true);
-    for (std::size_t k = 1; k < gases.size(); ++k) window.beside.push_back(gases[k].scene);
+    for (std::size_t k = 1; k < gases.size(); ++k) window.others.push_back(gases[k].scene);
   } else {
     window.playlist = load_playlist(options.playlist);
     window.scene = window.playlist.front().scene;

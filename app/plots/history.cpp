@@ -81,13 +81,18 @@ void History::thin_out() {
   std::vector<Sample> thinned;
   for (std::size_t i = 0; i + 1 < samples_.size(); i += 2) {
     const Sample &a = samples_[i], &b = samples_[i + 1];
-    thinned.push_back({0.5 * (a.time + b.time), 0.5 * (a.temperature + b.temperature),
-                       0.5 * (a.spin_temperature + b.spin_temperature),
-                       0.5 * (a.walls_in + b.walls_in), 0.5 * (a.bulk_in + b.bulk_in),
-                       0.5 * (a.nudges_in + b.nudges_in), 0.5 * (a.gravity_in + b.gravity_in),
-                       0.5 * (a.dissipated + b.dissipated),
-                       std::max(a.ledger_residual, b.ledger_residual),
-                       std::max(a.deepest_overlap, b.deepest_overlap)});
+    const auto mean = [&](auto member) { return 0.5 * (a.*member + b.*member); };
+    const auto larger = [&](auto member) { return std::max(a.*member, b.*member); };
+    thinned.push_back({.time = mean(&Sample::time),
+                       .temperature = 0.5 * (a.temperature + b.temperature),
+                       .spin_temperature = mean(&Sample::spin_temperature),
+                       .walls_in = mean(&Sample::walls_in),
+                       .bulk_in = mean(&Sample::bulk_in),
+                       .nudges_in = mean(&Sample::nudges_in),
+                       .gravity_in = mean(&Sample::gravity_in),
+                       .dissipated = mean(&Sample::dissipated),
+                       .ledger_residual = larger(&Sample::ledger_residual),
+                       .deepest_overlap = larger(&Sample::deepest_overlap)});
   }
   samples_ = std::move(thinned);
   spacing_ *= 2.0;

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "engine/publish/frame.h"
+#include "engine/live/frame.h"
 
 namespace clatter {
 

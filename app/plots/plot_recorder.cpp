@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "engine/checkpoint/archive.h"
-#include "engine/publish/publish.h"
+#include "engine/picture/snapshot.h"
 #include "engine/scene/scene_file.h"
 
 namespace clatter {

@@ -8,9 +8,9 @@
 
 #include "app/plots/history.h"
 #include "app/plots/plots.h"
+#include "engine/live/live_profile.h"
 #include "engine/measure/totals.h"
-#include "engine/publish/live_profile.h"
-#include "engine/publish/scheduled_run.h"
+#include "engine/run/scheduled_run.h"
 
 namespace clatter {
 

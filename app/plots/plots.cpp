@@ -8,7 +8,7 @@
 
 #include "app/plots/plot_colours.h"
 #include "app/results/theory_json.h"
-#include "engine/scene/text.h"
+#include "engine/text.h"
 #include "render/label.h"
 
 namespace clatter {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "app/plots/history.h"
-#include "engine/publish/command.h"
-#include "render/layers/live_plot.h"
+#include "engine/live/command.h"
+#include "render/charts/live_plot.h"
 #include "render/theme.h"
 
 namespace clatter {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/dynamics/model.h"
 #include "engine/dynamics/observer.h"
+#include "engine/laws/model.h"
 
 namespace clatter {
 

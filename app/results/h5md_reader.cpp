@@ -7,7 +7,7 @@
 #include "app/results/particle_frame.h"
 #include "engine/error.h"
 #include "engine/physics/state.h"
-#include "engine/scene/text.h"
+#include "engine/text.h"
 
 namespace clatter {
 

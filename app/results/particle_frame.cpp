@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/error.h"
-#include "engine/scene/text.h"
+#include "engine/text.h"
 
 namespace clatter {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/dynamics/model.h"
+#include "engine/laws/model.h"
 #include "engine/physics/state.h"
 
 namespace clatter {

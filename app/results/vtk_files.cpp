@@ -10,9 +10,9 @@
 #include <iterator>
 #include <system_error>
 
-#include "engine/scene/text.h"
 #include "engine/statistics/part_sums.h"
 #include "engine/system/write_file.h"
+#include "engine/text.h"
 
 namespace clatter {
 

@@ -31,7 +31,7 @@ Scene load(const CommonOptions& options, StartFile start_file) {
   }
   Scene scene = load_any_scene(options.scene, overrides, start_file);
   if (start_file == StartFile::Read && !options.quiet) {
-    tell_missing_newline(scene.particles.start.file);
+    note_missing_newline(scene.particles.start.file);
   }
   return scene;
 }

@@ -85,7 +85,7 @@ Measurement<D>& Run<D>::measure(double end) {
   if (!averages_go_on_) {
     measurement_.emplace(simulation(), scene_.measure, end);
     told_start_ = measurement_->averages_start();
-    if (resumed_) tell_new_averages();
+    if (resumed_) note_new_averages();
     return *measurement_;
   }
   require_same_measure(*resumed_, simulation().time() <= scene_.measure.burn_in);
@@ -95,7 +95,7 @@ Measurement<D>& Run<D>::measure(double end) {
   measurement_.emplace(simulation(), scene_.measure, end, ArchiveReader(saved, resumed_->file),
                        restart ? Averages::Restart : Averages::GoOn);
   told_start_ = measurement_->averages_start();
-  if (restart) tell_new_averages();
+  if (restart) note_new_averages();
   saved.clear();
   return *measurement_;
 }
@@ -143,7 +143,7 @@ void Run<D>::log_events(const std::filesystem::path& file, const EventSelection&
 }
 
 template <int D>
-void Run<D>::tell_left_files() const {
+void Run<D>::note_left_files() const {
   if (quiet_ || !resumed_) return;
   if (!recorder_ && !resumed_->checkpoint.trajectory.empty()) {
     std::fprintf(stderr,
@@ -157,7 +157,7 @@ void Run<D>::tell_left_files() const {
 }
 
 template <int D>
-void Run<D>::tell_new_averages() const {
+void Run<D>::note_new_averages() const {
   if (quiet_) return;
   std::fprintf(stderr, "clatter: averages restart at t = %g\n", told_start_);
 }
@@ -184,7 +184,7 @@ bool Run<D>::advance(double time, Progress& progress) {
       if (events_) events_->flush();
       if (measurement_ && measurement_->averages_start() != told_start_) {
         told_start_ = measurement_->averages_start();
-        tell_new_averages();
+        note_new_averages();
       }
       const std::chrono::duration<double> since_written = Clock::now() - last_written_;
       if (!options_.file.empty() && since_written.count() >= options_.every) write();

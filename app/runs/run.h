@@ -14,7 +14,7 @@
 #include "app/system/progress.h"
 #include "engine/error.h"
 #include "engine/measure/measurement.h"
-#include "engine/publish/scheduled_run.h"
+#include "engine/run/scheduled_run.h"
 #include "engine/scene/scene.h"
 
 namespace clatter {
@@ -47,7 +47,7 @@ class Run {
 
   /// The run, at its first simulation time.
   ScheduledRun<D>& scheduled() { return *run_; }
-  /// The simulation. Valid until the laws change.
+  /// The simulation of the run.
   Simulation<D>& simulation() { return run_->simulation(); }
   /// The seed of the flag, or of the checkpoint, or 1.
   std::uint64_t seed() const { return seed_; }
@@ -63,7 +63,7 @@ class Run {
   /// UserError and RunError.
   void log_events(const std::filesystem::path& file, const EventSelection& selection);
   /// Notes which files of the checkpoint's run do not continue: its trajectory and its event log.
-  void tell_left_files() const;
+  void note_left_files() const;
 
   /// Runs to a simulation time in slices of about 0.1 s of wall time. Between slices it shows
   /// progress and tests for interrupts. Returns false after an early end: an interrupt or a stop.
@@ -95,7 +95,7 @@ class Run {
   Checkpoint checkpoint();
   void write();
   bool advance(double time, Progress& progress);
-  void tell_new_averages() const;
+  void note_new_averages() const;
   // Whether particles have spins at some time of the run.
   bool ever_spins() const;
   std::string how_to_resume() const;

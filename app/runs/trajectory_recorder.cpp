@@ -6,7 +6,7 @@
 
 #include "engine/checkpoint/archive.h"
 #include "engine/error.h"
-#include "engine/scene/text.h"
+#include "engine/text.h"
 
 namespace clatter {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <thread>
 
-#include "app/runs/measure_run.h"
+#include "app/measure/measure_run.h"
 #include "app/system/exit_code.h"
 #include "app/system/interrupt.h"
 #include "engine/error.h"

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "app/runs/feature_cost.h"
+#include "app/measure/feature_cost.h"
 #include "app/sweep/executor.h"
 #include "app/system/outputs.h"
 #include "engine/error.h"

@@ -12,8 +12,8 @@
 #include "engine/error.h"
 #include "engine/scene/key_reader.h"
 #include "engine/scene/scene_document.h"
-#include "engine/scene/text.h"
 #include "engine/system/read_file.h"
+#include "engine/text.h"
 #include "engine/whole_number.h"
 
 namespace clatter {

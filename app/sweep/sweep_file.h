@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/runs/accuracy_goal.h"
+#include "app/measure/accuracy_goal.h"
 #include "engine/scene/scene_file.h"
 
 namespace clatter {

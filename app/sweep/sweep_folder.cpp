@@ -21,9 +21,9 @@
 #include "engine/checkpoint/checkpoint.h"
 #include "engine/error.h"
 #include "engine/scene/scene_document.h"
-#include "engine/scene/text.h"
 #include "engine/system/read_file.h"
 #include "engine/system/write_file.h"
+#include "engine/text.h"
 #include "engine/whole_number.h"
 
 namespace clatter {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/sweep/sweep_table.h"
-#include "render/layers/chart.h"
+#include "render/charts/chart.h"
 
 namespace clatter {
 

@@ -9,10 +9,10 @@
 
 #include "app/results/hdf5_writer.h"
 #include "engine/error.h"
-#include "engine/scene/text.h"
 #include "engine/statistics/estimate.h"
 #include "engine/system/read_file.h"
 #include "engine/system/write_file.h"
+#include "engine/text.h"
 
 namespace clatter {
 

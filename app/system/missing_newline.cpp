@@ -5,7 +5,7 @@
 
 namespace clatter {
 
-void tell_missing_newline(const std::filesystem::path& file) {
+void note_missing_newline(const std::filesystem::path& file) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored)) return;
   std::ifstream input(file, std::ios::binary | std::ios::ate);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/runs/feature_cost.h"
+#include "app/measure/feature_cost.h"
 #include "app/view/panels.h"
 #include "engine/scene/enum_names.h"
 #include "engine/scene/key_rules.h"
@@ -20,7 +20,7 @@ static void show_cost(Controls& controls, double price) {
   }
 }
 
-static void tell_share(Controls& controls, const char* key, const char* name, double share) {
+static void show_share(Controls& controls, const char* key, const char* name, double share) {
   controls.note(key, fmt::format("{}: {}", name,
                                  std::isnan(share) ? "-" : fmt::format("{:.2g} %", 100.0 * share)));
 }
@@ -56,9 +56,9 @@ static void contact_time(Session& session, Controls& controls) {
   if (!on) return;
   // Shown even without a value, so that the panel keeps its height after a change of laws.
   const auto& error = session.frame().contact_time_error;
-  tell_share(controls, "not_dissipated", "Not dissipated",
+  show_share(controls, "not_dissipated", "Not dissipated",
              error ? error->undissipated : std::nan(""));
-  tell_share(controls, "elastic_collisions", "Elastic collisions",
+  show_share(controls, "elastic_collisions", "Elastic collisions",
              error ? error->elasticised : std::nan(""));
 }
 

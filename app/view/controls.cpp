@@ -10,8 +10,8 @@
 
 #include "app/view/style.h"
 #include "engine/scene/key_writer.h"
-#include "engine/scene/text.h"
-#include "render/layers/fonts.h"
+#include "engine/text.h"
+#include "render/typography/fonts.h"
 
 namespace clatter {
 
@@ -44,7 +44,7 @@ static void end_tip() {
   ImGui::EndTooltip();
 }
 
-static void tell_help(const char* help) {
+static void show_help(const char* help) {
   if (!*help || !ImGui::IsItemHovered()) return;
   begin_tip();
   ImGui::TextUnformatted(help);
@@ -178,7 +178,7 @@ double Controls::limited(const Slider& slider, double value) {
   if (within == value) return value;
   const char* side = value > slider.high ? "at most" : "at least";
   const std::string number = fmt::sprintf(slider.logarithmic ? "%g" : slider.format, within);
-  session_.tell(fmt::format("{}: {} {}{}{}{}{}", slider.name, side, number, *slider.unit ? " " : "",
+  session_.report(fmt::format("{}: {} {}{}{}{}{}", slider.name, side, number, *slider.unit ? " " : "",
                             slider.unit, *slider.limit ? "; " : "", slider.limit));
   return within;
 }
@@ -338,7 +338,7 @@ bool Controls::choice(const char* key, const char* name, const char* help,
                                       grouped ? ImGuiComboFlags_HeightLargest : 0);
   if (!open) {
     log_place(key);
-    tell_help(help);
+    show_help(help);
   } else {
     for (int i = 0; i < static_cast<int>(words.size()); ++i) {
       const std::string& word = words[static_cast<std::size_t>(i)];
@@ -374,7 +374,7 @@ bool Controls::ends(const char* key, const char* help, std::array<double, 2>& en
   if (complete) typed = typed_ends_;
   const bool changed = complete && typed != ends && typed[0] < typed[1];
   log_place(key);
-  tell_help(help);
+  show_help(help);
   ImGui::PopID();
   if (changed) ends = typed;
   return changed;
@@ -392,7 +392,7 @@ bool Controls::named_field(const char* key, const char* name, const char* help,
   ImGui::SetNextItemWidth(-FLT_MIN);
   const bool changed = field();
   log_place(key);
-  tell_help(help);
+  show_help(help);
   ImGui::PopID();
   return changed;
 }
@@ -417,7 +417,7 @@ bool Controls::toggle(const char* key, const char* name, const char* help, bool&
   if (!shows(key)) return false;
   const bool changed = ImGui::Checkbox(name, &on);
   log_place(key);
-  tell_help(help);
+  show_help(help);
   return changed;
 }
 
@@ -428,7 +428,7 @@ bool Controls::button(const char* key, const char* label, const char* help, floa
   const bool clicked = ImGui::Button(label, ImVec2(width, 0.0f));
   ImGui::PopStyleColor();
   log_place(key);
-  tell_help(help);
+  show_help(help);
   return clicked;
 }
 
@@ -452,7 +452,7 @@ bool Controls::area(const char* key, float width, float height, const std::strin
   if (!shows(key)) return false;
   ImGui::Dummy(ImVec2(width, height));
   log_place(key);
-  tell_help(help.c_str());
+  show_help(help.c_str());
   return true;
 }
 

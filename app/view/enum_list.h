@@ -8,7 +8,7 @@
 
 #include "app/view/controls.h"
 #include "engine/scene/enum_names.h"
-#include "engine/scene/text.h"
+#include "engine/text.h"
 
 namespace clatter {
 

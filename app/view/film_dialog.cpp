@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "app/runs/frame_times.h"
-#include "engine/scene/text.h"
+#include "app/film/frame_times.h"
+#include "engine/text.h"
 
 namespace clatter {
 

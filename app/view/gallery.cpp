@@ -11,7 +11,7 @@
 
 #include "app/view/style.h"
 #include "engine/scene/scene_file.h"
-#include "render/layers/gui_layer.h"
+#include "render/typography/gui_layer.h"
 
 namespace clatter {
 

@@ -18,7 +18,7 @@
 #include "engine/scene/enum_names.h"
 #include "engine/scene/key_writer.h"
 #include "engine/scene/scene_file.h"
-#include "engine/scene/text.h"
+#include "engine/text.h"
 
 namespace clatter {
 
@@ -40,9 +40,9 @@ Gui::Gui(Host& host, const Gl& gl, WindowInput& input, EngineLink& engine, Scrip
       gui_(gl) {}
 
 void Gui::open(const Scene& scene, std::uint64_t seed, std::optional<double> until,
-               const std::vector<Scene>& beside) {
+               const std::vector<Scene>& others) {
   profile_axis_ = static_cast<int>(scene.measure.profile_axis);
-  session_.open(scene, seed, !until, beside);
+  session_.open(scene, seed, !until, others);
   if (until) session_.play_until(*until);
 }
 
@@ -56,7 +56,7 @@ void Gui::listen(bool on) {
       loudspeaker->close();
     }
   } catch (const RunError& error) {
-    return session_.tell(error.what());
+    return session_.report(error.what());
   }
   session_.listen(on);
 }
@@ -66,7 +66,7 @@ void Gui::play_sound() {
   const std::string failure = host_.loudspeaker()->play(session_.frame().played);
   if (failure.empty()) return;
   listen(false);
-  session_.tell(failure);
+  session_.report(failure);
 }
 
 // Reads the scale of the window and loads the fonts for it.
@@ -417,7 +417,7 @@ void Gui::name_missing_controls() {
   const auto missing = controls_.take_missing();
   if (checked_run_ == session_.frame().run) return;
   for (const auto& [name, near] : missing) {
-    session_.tell("the scene has no control " + in_quotes(name) +
+    session_.report("the scene has no control " + in_quotes(name) +
                   (near.empty() ? "" : "; try " + in_quotes(near)));
   }
 }

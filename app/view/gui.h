@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "app/film/compared_scenes.h"
 #include "app/plots/history.h"
 #include "app/plots/plots.h"
-#include "app/runs/compared_scenes.h"
 #include "app/system/program_job.h"
 #include "app/view/controls.h"
 #include "app/view/film_dialog.h"
@@ -29,8 +29,8 @@
 #include "app/view/viewport.h"
 #include "app/view/wall_grip.h"
 #include "app/view/window_input.h"
-#include "render/layers/fonts.h"
-#include "render/layers/gui_layer.h"
+#include "render/typography/fonts.h"
+#include "render/typography/gui_layer.h"
 
 namespace clatter {
 
@@ -41,7 +41,7 @@ class Gui {
 
   /// Starts a scene, and those `beside` it in step. With `until` they stop at that simulation time.
   void open(const Scene& scene, std::uint64_t seed, std::optional<double> until = {},
-            const std::vector<Scene>& beside = {});
+            const std::vector<Scene>& others = {});
   /// The scenes that follow each other by keys and buttons, instead of those of the gallery. The
   /// first one has been opened.
   void set_playlist(std::vector<PlaylistItem> playlist);
@@ -58,7 +58,7 @@ class Gui {
   /// after the answer.
   bool may_close();
   /// Shows a message.
-  void tell(const std::string& message) { session_.tell(message); }
+  void report(const std::string& message) { session_.report(message); }
   /// Handles the input and draws the next picture of the window.
   void draw();
   /// True while the window redraws without input: a film or pictures of the gallery are being made,

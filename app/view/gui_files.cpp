@@ -29,7 +29,7 @@ void Gui::open_file(const std::string& file) {
     const std::uint64_t seed = seed_of_picture(file).value_or(session_.frame().seed);
     before_loss([this, scene = load_any_scene(file), seed] { open(scene, seed); });
   } catch (const std::exception& error) {
-    session_.tell(error.what());
+    session_.report(error.what());
   }
 }
 
@@ -116,9 +116,9 @@ void Gui::screenshot() {
     host_.deliver(name);
     session_.set_saved();
     log_.event("screenshot", {{"file", name}});
-    session_.tell("Screenshot: " + name);
+    session_.report("Screenshot: " + name);
   } catch (const std::exception& error) {
-    session_.tell(error.what());
+    session_.report(error.what());
   }
 }
 
@@ -134,10 +134,10 @@ std::vector<std::string> Gui::save_scenes() {
       log_.event("saved", {{"file", names.back()}});
     }
     session_.set_saved();
-    session_.tell(fmt::format("Saved: {}", fmt::join(names, ", ")));
+    session_.report(fmt::format("Saved: {}", fmt::join(names, ", ")));
     return names;
   } catch (const std::exception& error) {
-    session_.tell(error.what());
+    session_.report(error.what());
   }
   return {};
 }
@@ -185,7 +185,7 @@ void Gui::copy_command() {
   }
   host_.copy(command);
   log_.event("command", {{"line", command}});
-  session_.tell("Copied: " + command);
+  session_.report("Copied: " + command);
 }
 
 void Gui::copy_link() {
@@ -195,9 +195,9 @@ void Gui::copy_link() {
         host_.link_to(link_of(session_.recorded(session_.frame()), session_.frame().seed));
     host_.copy(link);
     log_.event("link", {{"link", link}});
-    session_.tell("The link is in the clipboard");
+    session_.report("The link is in the clipboard");
   } catch (const std::exception& error) {
-    session_.tell(error.what());
+    session_.report(error.what());
   }
 }
 
@@ -208,9 +208,9 @@ void Gui::film() {
     arguments.insert(arguments.end(), {"--progress", "json"});
     film_.emplace(arguments);
     film_file_ = film_dialog_.film().file;
-    session_.tell("Filming into " + film_file_);
+    session_.report("Filming into " + film_file_);
   } catch (const std::exception& error) {
-    session_.tell(error.what());
+    session_.report(error.what());
   }
 }
 
@@ -220,7 +220,7 @@ void Gui::watch_film() {
   if (!code) return;
   const bool made = *code == 0 || *code == kInterrupted;
   log_.event("film", {{"file", film_file_}, {"code", *code}});
-  session_.tell(made ? "Film: " + film_file_ : film_->message());
+  session_.report(made ? "Film: " + film_file_ : film_->message());
   film_.reset();
 }
 
@@ -231,9 +231,9 @@ void Gui::film_screen() {
     ScreenRecorder& recorder = *host_.recorder();
     recorder.begin(viewport_.size());
     screen_film_ = {free_name(recorder.extension()), ImGui::GetTime()};
-    session_.tell("Stop film ends the film");
+    session_.report("Stop film ends the film");
   } catch (const std::exception& error) {
-    session_.tell(error.what());
+    session_.report(error.what());
   }
 }
 
@@ -242,13 +242,13 @@ void Gui::add_to_screen_film(int x, int y, Size size) {
   const std::string failure = host_.recorder()->add(x, y, size);
   if (failure.empty()) return;
   stop_screen_film();
-  session_.tell(failure);
+  session_.report(failure);
 }
 
 void Gui::stop_screen_film() {
   host_.recorder()->end(screen_film_->file);
   log_.event("film", {{"file", screen_film_->file}});
-  session_.tell("Film: " + screen_film_->file);
+  session_.report("Film: " + screen_film_->file);
   screen_film_.reset();
 }
 

@@ -16,7 +16,7 @@
 #include "app/view/plot.h"
 #include "app/view/style.h"
 #include "engine/scene/enum_names.h"
-#include "render/layers/fonts.h"
+#include "render/typography/fonts.h"
 
 // Lecture mode: the gas with three sliders, a large plot and the tools of a lecturer.
 
@@ -444,7 +444,7 @@ void Gui::step_scene(int step) {
   }
   const auto next = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(at_) + step);
   if (next >= playlist_.size()) {
-    return session_.tell(step < 0 ? "This is the first scene of the playlist"
+    return session_.report(step < 0 ? "This is the first scene of the playlist"
                                   : "This is the last scene of the playlist");
   }
   before_loss([this, next] {

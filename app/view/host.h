@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/publish/played_stretch.h"
+#include "engine/live/played_stretch.h"
 #include "render/camera.h"
 
 namespace clatter {

@@ -10,8 +10,9 @@
 
 #include "engine/embedded_file.h"
 #include "engine/error.h"
+#include "engine/scene/act_checks.h"
 #include "engine/scene/scene_file.h"
-#include "engine/scene/text.h"
+#include "engine/text.h"
 #include "engine/whole_number.h"
 
 namespace clatter {

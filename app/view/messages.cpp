@@ -6,7 +6,7 @@
 #include <array>
 #include <string>
 
-#include "engine/scene/text.h"
+#include "engine/text.h"
 
 namespace clatter {
 

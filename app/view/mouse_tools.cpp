@@ -9,8 +9,8 @@
 
 #include "app/plots/plot_colours.h"
 #include "app/view/style.h"
-#include "render/layers/fonts.h"
 #include "render/picking.h"
+#include "render/typography/fonts.h"
 
 namespace clatter {
 
@@ -228,7 +228,7 @@ void MouseTools::add(Session& session) {
 void MouseTools::release(Session& session, const WindowMap& map) {
   Press press = *std::exchange(press_, std::nullopt);
   if (has_arrow(press.tool)) {
-    if (!press.dragged) return session.tell("Drag an arrow: direction and size of the velocity");
+    if (!press.dragged) return session.report("Drag an arrow: direction and size of the velocity");
     const VecX arrow = velocity(session.frame(), map);
     const Nudge nudge =
         press.tool == Tool::Kick

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/physics/theory.h"
-#include "engine/scene/piston.h"
+#include "engine/scene/act_checks.h"
 
 namespace clatter {
 
@@ -57,7 +57,7 @@ void PistonHand::release(Session& session) {
   Drag drag = *std::exchange(drag_, std::nullopt);
   if (!drag.acts.empty()) return session.remember({.acts = std::move(drag.acts)});
   if (!session.frame().plays) {
-    session.tell("The piston moves while the gas plays; Shift + drag makes another box");
+    session.report("The piston moves while the gas plays; Shift + drag makes another box");
   }
 }
 

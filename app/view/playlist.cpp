@@ -10,8 +10,8 @@
 #include "engine/scene/key_reader.h"
 #include "engine/scene/scene_document.h"
 #include "engine/scene/scene_file.h"
-#include "engine/scene/text.h"
 #include "engine/system/read_file.h"
+#include "engine/text.h"
 
 namespace clatter {
 

@@ -4,8 +4,8 @@
 
 #include "app/view/controls.h"
 #include "app/view/style.h"
-#include "engine/scene/text.h"
-#include "render/layers/fonts.h"
+#include "engine/text.h"
+#include "render/typography/fonts.h"
 
 namespace clatter {
 

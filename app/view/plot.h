@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "render/layers/live_plot.h"
+#include "render/charts/live_plot.h"
 
 namespace clatter {
 

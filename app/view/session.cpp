@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "engine/error.h"
+#include "engine/scene/act_checks.h"
 #include "engine/scene/change_dimension.h"
 #include "engine/scene/scene_file.h"
 #include "engine/scene/schedule.h"
@@ -41,7 +42,7 @@ static nlohmann::json status(const Frame& frame) {
                          {"flights", frame.snapshot.flights.size()},
                          {"restitution", frame.scene->particles.restitution}};
   told["gas"] = frame.gas;
-  for (const Frame& gas : frame.beside) {
+  for (const Frame& gas : frame.others) {
     nlohmann::json beside = {{"gas", gas.gas},
                              {"time", gas.snapshot.time},
                              {"temperature", gas.snapshot.temperature},
@@ -66,7 +67,7 @@ bool Session::update() {
   const Frame& now = frame();
   if (now.messages > messages_) {
     messages_ = now.messages;
-    tell(now.message);
+    report(now.message);
   }
   if (now.handled > handled_) {
     handled_ = now.handled;
@@ -117,16 +118,16 @@ void Session::answered(const Frame& now) {
 }
 
 void Session::open(const Scene& scene, std::uint64_t seed, bool plays,
-                   const std::vector<Scene>& beside) {
+                   const std::vector<Scene>& others) {
   plays_ = plays;
   const OpenedScene now{scene, scene, seed};
   if (frame().run > 0) {
     if (!done_.empty() && done_.back().scenes.empty()) {
-      tell(fmt::format("Ctrl+Z returns to {} with its changes", opened().title));
+      report(fmt::format("Ctrl+Z returns to {} with its changes", opened().title));
     }
     remember({.scenes = {present_scene(), now}});
   }
-  start(now, "open", beside);
+  start(now, "open", others);
 }
 
 OpenedScene Session::present_scene() const {
@@ -135,11 +136,11 @@ OpenedScene Session::present_scene() const {
 
 // Sends a scene and those beside it to the engine, whose refusal restores the present ones.
 void Session::start(const OpenedScene& opened, const char* event,
-                    const std::vector<Scene>& beside) {
+                    const std::vector<Scene>& others) {
   if (!before_ && frame().run > 0) before_ = Before{gases_, view_, frame().run};
   wishes_ = true;
   gases_ = {{opened.scene, opened.opened}};
-  for (const Scene& other : beside) gases_.push_back({other, other});
+  for (const Scene& other : others) gases_.push_back({other, other});
   gas_ = 0;
   seed_ = opened.seed;
   unsaved_ = opened.unsaved;
@@ -161,7 +162,7 @@ void Session::send_open(const Scene& scene, bool keeps_gas, const VecX& shift) {
   for (std::size_t k = 0; k < gases_.size(); ++k) {
     if (k == gas_) continue;
     const Gas& other = gases_[k];
-    open.beside.push_back(
+    open.others.push_back(
         {keeps_gas ? as_shown(without_changes(other.scene)) : restarted(other), seed_});
   }
   send(std::move(open));
@@ -170,7 +171,7 @@ void Session::send_open(const Scene& scene, bool keeps_gas, const VecX& shift) {
 void Session::add_copy() {
   if (frame().run == 0) return;
   if (gases_.size() == kMostGases) {
-    return tell(fmt::format("No more than {} gases run in step; remove one first", kMostGases));
+    return report(fmt::format("No more than {} gases run in step; remove one first", kMostGases));
   }
   gases_.push_back(selected());
   log_.event("add_copy", {{"of", gas_}, {"command", sent_ + 1}});
@@ -236,12 +237,12 @@ void Session::switch_dimension() {
   try {
     const auto [scene, removed] = change_dimension(before.scene, 5 - before.scene.dimension());
     if (!removed.empty()) {
-      tell(fmt::format("Without meaning for {}, and removed: {}; Ctrl+Z restores the former scene",
+      report(fmt::format("Without meaning for {}, and removed: {}; Ctrl+Z restores the former scene",
                        scene.dimension() == 2 ? "disks" : "spheres", fmt::join(removed, ", ")));
     }
     remember({.scenes = {before, {scene, scene, seed_, true}}});
   } catch (const UserError& error) {
-    tell(error.problem() + "; " + error.advice());
+    report(error.problem() + "; " + error.advice());
     return;
   }
   start(done_.back().scenes[1], "dimension");
@@ -364,7 +365,7 @@ void Session::set(const std::vector<Override>& settings, const VecX& shift) {
     selected().scene = with_settings(scene(), settings);
     wishes_ = unsaved_ = true;
   } catch (const UserError& error) {
-    tell(error.problem() + "; " + error.advice());
+    report(error.problem() + "; " + error.advice());
     return;
   }
   View view = view_;
@@ -404,7 +405,7 @@ void Session::nudge(const Nudge& nudge) {
   try {
     check_nudge(nudge, scene(), static_cast<std::int64_t>(frame().snapshot.count()));
   } catch (const UserError& error) {
-    tell(error.problem() + "; " + error.advice());
+    report(error.problem() + "; " + error.advice());
     return;
   }
   unsaved_ = true;
@@ -461,7 +462,7 @@ void Session::listen(bool on) {
   send(command::Listen{on});
 }
 
-void Session::tell(const std::string& message) {
+void Session::report(const std::string& message) {
   message_ = message;
   ++told_;
   log_.event("message", {{"text", message}});

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/view/script_log.h"
-#include "engine/publish/worker.h"
+#include "engine/live/worker.h"
 
 namespace clatter {
 
@@ -61,7 +61,7 @@ class Session {
   /// Opens and starts a scene, and those `beside` it in step, which get its view. Undo starts the
   /// former scene with its changes, without a comparison. Without `plays` the scene is paused.
   void open(const Scene& scene, std::uint64_t seed, bool plays = true,
-            const std::vector<Scene>& beside = {});
+            const std::vector<Scene>& others = {});
   /// Number of gases.
   std::size_t gases() const { return gases_.size(); }
   /// Number of the selected gas.
@@ -158,7 +158,7 @@ class Session {
   std::uint64_t views() const { return views_; }
 
   /// Sets the message of the window.
-  void tell(const std::string& message);
+  void report(const std::string& message);
   /// The last message; empty: none yet.
   const std::string& message() const { return message_; }
   /// Number of messages so far.
@@ -189,7 +189,7 @@ class Session {
   void refit(const VecX& shift);
   void send_exchange();
   double present() const;
-  void start(const OpenedScene& opened, const char* event, const std::vector<Scene>& beside = {});
+  void start(const OpenedScene& opened, const char* event, const std::vector<Scene>& others = {});
   void send_open(const Scene& scene, bool keeps_gas, const VecX& shift = {});
   Scene as_shown(Scene scene) const;
   Scene restarted(const Gas& gas) const;

@@ -39,7 +39,7 @@ static std::vector<Change> take_acts(std::vector<Change>& changes,
 void Session::exchange_acts(Edit& edit, bool again) {
   std::vector<Change> changes = frame().scene->changes;
   if (!again) edit.undone_acts = take_acts(changes, edit.acts);
-  if (edit.undone_acts.empty()) return tell("These changes are no longer part of the run");
+  if (edit.undone_acts.empty()) return report("These changes are no longer part of the run");
   if (again) changes.insert(changes.end(), edit.undone_acts.begin(), edit.undone_acts.end());
   const double from = std::ranges::min(edit.undone_acts, {}, &Change::time).time;
   log_.event("replace_changes",

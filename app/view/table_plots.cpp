@@ -8,7 +8,7 @@
 
 #include "app/plots/plot_colours.h"
 #include "engine/scene/enum_names.h"
-#include "engine/scene/text.h"
+#include "engine/text.h"
 #include "render/label.h"
 
 namespace clatter {

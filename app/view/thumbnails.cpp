@@ -56,7 +56,7 @@ bool Thumbnails::advance(std::chrono::milliseconds budget) {
 void Thumbnails::draw() {
   view_.overlay = false;
   Frame frame;
-  run_->tell(frame, false);
+  run_->fill(frame, false);
   const Snapshot& gas = frame.snapshot;
   const Canvas canvas(*gl_, kSize);
   canvas.bind();

@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "engine/embedded_file.h"
-#include "engine/publish/opening_run.h"
-#include "engine/publish/watched_run.h"
+#include "engine/live/opening_run.h"
+#include "engine/live/watched_run.h"
 #include "render/gl/gl_object.h"
 #include "render/layers/renderer.h"
 

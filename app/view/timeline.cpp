@@ -10,7 +10,7 @@
 #include "app/plots/plot_colours.h"
 #include "app/view/icons.h"
 #include "app/view/style.h"
-#include "render/layers/fonts.h"
+#include "render/typography/fonts.h"
 
 namespace clatter {
 

@@ -10,9 +10,9 @@
 
 #include "app/view/icons.h"
 #include "app/view/style.h"
-#include "render/layers/fonts.h"
 #include "render/theme.h"
 #include "render/typeset_number.h"
+#include "render/typography/fonts.h"
 
 namespace clatter {
 

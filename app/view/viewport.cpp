@@ -6,7 +6,7 @@
 
 #include "app/view/direction.h"
 #include "app/view/style.h"
-#include "engine/publish/command.h"
+#include "engine/live/command.h"
 #include "render/output/cells.h"
 #include "render/picking.h"
 
@@ -54,7 +54,7 @@ void Viewport::draw(const Frame& frame, const View& view, Size size, double lett
                    .letters = letters,
                    .least = least,
                    .speed = frame.speed,
-                   .beside = titles};
+                   .others = titles};
   if (heading && titles.empty()) {
     text.title = frame.scene->title;
     text.caption = frame.scene->caption;

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "app/view/style.h"
-#include "render/layers/fonts.h"
 #include "render/picking.h"
+#include "render/typography/fonts.h"
 
 namespace clatter {
 

@@ -109,7 +109,7 @@ static void show(const WindowOptions& options) {
     Gui gui(desktop, context.gl(), input, worker, log);
     gui.set_playlist(options.playlist);
     if (options.sound) gui.listen(true);
-    gui.open(options.scene, options.seed, options.until, options.beside);
+    gui.open(options.scene, options.seed, options.until, options.others);
     // Panels need several pictures after an event to settle.
     constexpr int kSettle = 4;
     for (int left = kSettle;;) {

@@ -13,7 +13,7 @@ namespace clatter {
 /// Options of the window.
 struct WindowOptions {
   Scene scene;
-  std::vector<Scene> beside;  ///< scenes in step with it, with the same seed
+  std::vector<Scene> others;  ///< scenes in step with it, with the same seed
   std::uint64_t seed = 1;
   Size size = {1280, 800};             ///< size in screen units
   std::optional<double> until;         ///< simulation time at which the gas pauses; absent: none

@@ -20,7 +20,7 @@
 #include "app/web/page_host.h"
 #include "engine/error.h"
 #include "render/context/web_context.h"
-#include "render/layers/gui_context.h"
+#include "render/typography/gui_context.h"
 
 namespace clatter {
 
@@ -80,7 +80,7 @@ class Page {
       open(read_link(fragment), until);
     } catch (const std::exception& error) {
       if (!opened_) open(read_link(""), until);
-      gui_.tell(error.what());
+      gui_.report(error.what());
     }
   }
 
@@ -143,8 +143,8 @@ class Page {
   }
 
   // Shows a message.
-  void tell(const char* message) {
-    gui_.tell(message);
+  void report(const char* message) {
+    gui_.report(message);
     settle();
   }
 
@@ -272,6 +272,6 @@ EMSCRIPTEN_KEEPALIVE void clatter_drop(const char* path) {
   page->drop(path);
 }
 EMSCRIPTEN_KEEPALIVE void clatter_tell(const char* message) {
-  page->tell(message);
+  page->report(message);
 }
 }

@@ -22,6 +22,12 @@
 // The function binds all members with a structured binding. A new member of the type does not
 // compile until the function names it.
 
+// Checkpoints. RunState and the model determine a run's future. Plans, queue and cells are rebuilt
+// at a restart. Each stored type has one function visit beside it, for writing and reading
+// (checkpoint/archive.h). It binds every member, so that a new member does not compile until it is
+// named there. Then raise kVersion in checkpoint.cpp. The previous file is kept as FILE.previous. A
+// CRC-32 covers the whole file.
+
 namespace clatter {
 
 /// Common base of writing and reading: descends through structs, vectors and containers to numbers.

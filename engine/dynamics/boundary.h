@@ -4,11 +4,17 @@
 #include <optional>
 
 #include "engine/dynamics/clock.h"
-#include "engine/dynamics/model.h"
 #include "engine/dynamics/run_state.h"
+#include "engine/laws/acts.h"
+#include "engine/laws/model.h"
 #include "engine/physics/flight.h"
-#include "engine/physics/piston.h"
 #include "engine/physics/wall_motion.h"
+
+// Walls that move have a phase at the base, as a fraction of a period. The clock computes it again
+// at every move of the base (Boundary). A change of frequency adds a shift to this phase, which
+// keeps the wall at its place (RunState::phase_shifts). Contact with a ramp is a quadratic
+// equation. Contact with a sine is found piece by piece between inflections, by Newton's method
+// from the side where it cannot overshoot (wall_motion.cpp).
 
 namespace clatter {
 

@@ -10,12 +10,13 @@
 #include "engine/dynamics/cell_of.h"
 #include "engine/dynamics/event.h"
 #include "engine/dynamics/large_array.h"
-#include "engine/dynamics/model.h"
 #include "engine/dynamics/near_list.h"
+#include "engine/dynamics/neighbour.h"
 #include "engine/dynamics/subdomain.h"
+#include "engine/laws/model.h"
 #include "engine/physics/fall_time.h"
 #include "engine/physics/flight.h"
-#include "engine/physics/neighbour.h"
+#include "engine/physics/state.h"
 #include "engine/vec.h"
 
 namespace clatter {

@@ -2,6 +2,12 @@
 
 #include "engine/dynamics/long_time.h"
 
+// Time. Event times are kept on a base that moves with the run, so they are as precise at t = 1e9
+// as at t = 0. The base moves after a number of physical events. It also moves at each kick of bulk
+// driving, and when a particle becomes so fast that times are too coarse for its flight. It never
+// moves for a frame or an observer. Periodic actions (samples, windows) are a start and an integer
+// count, see Simulation::every.
+
 namespace clatter {
 
 /// Maps between simulation time and the moving base. The engine keeps event times on this base, so

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "engine/laws/wall.h"
 #include "engine/physics/pair_contact.h"
-#include "engine/scene/scene.h"
 
 namespace clatter {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "engine/dynamics/model.h"
 #include "engine/dynamics/watchdog.h"
 #include "engine/error.h"
+#include "engine/laws/model.h"
 
 namespace clatter {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "engine/dynamics/boundary.h"
-#include "engine/dynamics/model.h"
+#include "engine/laws/model.h"
 #include "engine/physics/collision.h"
 #include "engine/physics/spin.h"
 
@@ -29,7 +29,7 @@ struct Arrival {
   Vec<D> velocity = Vec<D>::Zero();
   Spin<D> spin = Spin<D>::Zero();
   std::uint32_t particle = 0;
-  std::uint32_t flight = 0;  ///< number of the flight that ends here
+  std::uint64_t flight = 0;  ///< number of the flight that ends here, with its era in the high word
 };
 
 /// State of a particle just after it hits a wall.

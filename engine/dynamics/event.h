@@ -3,6 +3,12 @@
 #include <cstdint>
 #include <tuple>
 
+// Events. Each particle has one plan: its first contact, or the crossing of its cell's border if
+// that is earlier. The plan is the particle's only live entry in the calendar. A collision predicts
+// new plans for its two particles. A plan becomes stale if its partner has another event first. The
+// number of the partner's flight shows this when the plan is due. The cell of a particle depends on
+// its history, but its events do not.
+
 namespace clatter {
 
 /// Values of Event::partner that are no particle: a wall (kWall + side), a border of the

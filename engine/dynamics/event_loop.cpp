@@ -61,6 +61,7 @@ static ParticleStates<D> states_of(const Model<D>& model, RunState<D>& saved) {
                         {saved.spins.begin(), saved.spins.end()},
                         {saved.last_collisions.begin(), saved.last_collisions.end()},
                         {saved.remainders.begin(), saved.remainders.end()}};
+  gas.era = saved.era;
   for (std::size_t i = 0; i < count; ++i) gas.particles.flight(i) = saved.flights[i];
   gas.fit(model, count);
   free_memory(saved.flights);
@@ -147,6 +148,8 @@ void EventLoop<D>::load(const ParticleStates<D>& gas, const Subdomain<D>& subdom
   until_base_moves_ = kNoLimit;
   counts_ = {};
   checks_ = {};
+  prediction_.set_laws();
+  gas_.era = gas.era;
   gas_.particles.resize(count);
   gas_.fit(model_, count);
   plans_.resize(count);
@@ -179,6 +182,7 @@ void EventLoop<D>::load(const ParticleStates<D>& gas, const Subdomain<D>& subdom
 template <int D>
 void EventLoop<D>::adopt(ParticleStates<D>& later, double time, std::uint64_t pair_collisions,
                          std::uint64_t wall_collisions, const RunChecks& checks) {
+  later.era = gas_.era;
   std::swap(gas_, later);
   now_ = std::max(now_, time);
   counts_.pair_collisions += pair_collisions;
@@ -196,6 +200,7 @@ void EventLoop<D>::save_to(RunState<D>& saved) const {
   saved.spins.assign(gas_.spins.begin(), gas_.spins.end());
   saved.last_collisions.assign(gas_.last_collisions.begin(), gas_.last_collisions.end());
   saved.remainders.assign(gas_.remainders.begin(), gas_.remainders.end());
+  saved.era = gas_.era;
   saved.until_base_moves = until_base_moves_;
   if (watchdog_) {
     saved.mean_collision_time = watchdog_->mean_collision_time();
@@ -256,6 +261,7 @@ void EventLoop<D>::move_base() {
   for (std::size_t i = 0; i < gas_.particles.size(); ++i) gas_.particles.flight(i).time -= shift;
   for (double& time : gas_.last_collisions) time -= shift;
   now_ = 0.0;
+  gas_.era = static_cast<std::uint32_t>((counts_.collisions() + counts_.kicks) >> 31);
   until_base_moves_ =
       std::max<std::uint64_t>(kMinEventsPerBase, kEventsPerBase * gas_.particles.size());
   if (watchdog_) watchdog_->on_base_moved(shift);

@@ -11,7 +11,6 @@
 #include "engine/dynamics/collapse.h"
 #include "engine/dynamics/event_queue.h"
 #include "engine/dynamics/large_array.h"
-#include "engine/dynamics/model.h"
 #include "engine/dynamics/neighbourhood.h"
 #include "engine/dynamics/observer.h"
 #include "engine/dynamics/particle_states.h"
@@ -21,7 +20,8 @@
 #include "engine/dynamics/run_state.h"
 #include "engine/dynamics/tile_record.h"
 #include "engine/dynamics/watchdog.h"
-#include "engine/scene/nudge.h"
+#include "engine/laws/acts.h"
+#include "engine/laws/model.h"
 #include "engine/stop_request.h"
 
 namespace clatter {
@@ -144,8 +144,8 @@ class EventLoop {
   void add_observer(Observer<D>& observer) { observers_.push_back(&observer); }
   /// Reports nothing to an observer from now on.
   void remove_observer(const Observer<D>& observer) { std::erase(observers_, &observer); }
-  /// Calls report(observer) for each observer. A call may remove observers and add others, which
-  /// have no call.
+  /// Calls report(observer) for each observer. A call may remove observers, which have no later
+  /// call, and add others.
   template <class Report>
   void for_observers(const Report& report) const;
   /// Adds the particles, times, counts and checks to a saved run.

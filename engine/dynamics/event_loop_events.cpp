@@ -9,8 +9,8 @@
 #include "engine/dynamics/event_loop.h"
 #include "engine/dynamics/prefetch.h"
 #include "engine/error.h"
+#include "engine/laws/limits.h"
 #include "engine/physics/random.h"
-#include "engine/scene/limits.h"
 
 // The effects of events on particles; event_loop.cpp has the loop.
 
@@ -199,7 +199,7 @@ void EventLoop<D>::hit_wall(std::uint32_t number, int side) {
   const Departure<D> departure =
       wall_outcome<D>(model_, side, boundary_.wall(side, now_),
                       {v, spin(number), record_ ? record_->numbers[number] : number,
-                       gas_.particles[number].flight.number},
+                       std::uint64_t{gas_.era} << 32 | gas_.particles[number].flight.number},
                       elastic);
   if (!observers_.empty()) {
     const Spin<D> spin_gain = departure.spin - spin(number);
@@ -218,11 +218,10 @@ void EventLoop<D>::hit_wall(std::uint32_t number, int side) {
 template <int D>
 void EventLoop<D>::kick() {
   const auto count = static_cast<std::uint32_t>(gas_.particles.size());
-  const auto kick_number = static_cast<std::uint32_t>(counts_.kicks);
   std::vector<Impulse<D>> gains(count);
   Vec<D> mean = Vec<D>::Zero();
   for (std::uint32_t i = 0; i < count; ++i) {
-    Random random(model_.seed, Stream::Kick, i, kick_number);
+    Random random(model_.seed, Stream::Kick, i, counts_.kicks);
     for (double& p : gains[i].momentum) p = model_.bulk_drive->kick_speed * random.normal();
     if (model_.spins) {
       for (double& w : gains[i].spin) w = model_.bulk_drive->kick_spin * random.normal();

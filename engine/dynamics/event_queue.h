@@ -9,6 +9,11 @@
 
 #include "engine/dynamics/event.h"
 
+// The calendar is a ladder queue with O(1) push and pop (event_queue.h). Rows hold the far future
+// unsorted. The current row is spread over buckets. Only the current bucket is sorted. The width of
+// the buckets follows from the density of the first events. Where a few hot particles crowd a
+// bucket, the calendar is rebuilt after a counted amount of work.
+
 namespace clatter {
 
 /// The calendar of events, a ladder queue. Rows hold the far future unsorted, the current row is

@@ -80,6 +80,7 @@ IntVec<D> Foresight<D>::count_tiles(int threads) const {
 
 template <int D>
 void Foresight<D>::restart(double time) {
+  ends_.fit(model_, ends_.particles.size());  // laws may have changed
   end_ = time;
   fresh_ = true;
   window_.reset();

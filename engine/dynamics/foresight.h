@@ -11,13 +11,21 @@
 #include "engine/dynamics/event_loop.h"
 #include "engine/dynamics/foreseen_events.h"
 #include "engine/dynamics/large_array.h"
-#include "engine/dynamics/model.h"
 #include "engine/dynamics/particle_states.h"
 #include "engine/dynamics/subdomain.h"
 #include "engine/dynamics/tile_record.h"
 #include "engine/dynamics/tile_sizes.h"
+#include "engine/laws/model.h"
 #include "engine/physics/flight.h"
 #include "engine/stop_request.h"
+
+// Several threads. EventLoop has the particles, their plans and the calendar; Simulation has the
+// clock, timers and kicks. A large gas has no calendar of its own. Foresight runs tiles of it, each
+// an EventLoop with a TileRecord, and a Certificate proves that a tile's particles had their true
+// collisions (docs/parallel.md). The loop of the whole gas takes over their flights. If it has
+// observers, it processes the tiles' collisions in order (ForeseenEvents, process_foreseen), by the
+// code that processes planned ones. Simulation chooses the way at each move of the base,
+// and after a change of laws.
 
 namespace clatter {
 

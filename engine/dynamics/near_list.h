@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/dynamics/large_array.h"
-#include "engine/physics/neighbour.h"
+#include "engine/dynamics/neighbour.h"
 #include "engine/vec.h"
 
 namespace clatter {

@@ -11,6 +11,13 @@
 #include "engine/dynamics/prefetch.h"
 #include "engine/physics/theory.h"
 
+// Near particles are in lists (Neighbourhood). The list of a cell holds the particles of the cell
+// and of all neighbouring cells (CellGrid). A particle changes cells only when it is beyond the
+// border by an overhang, which is as wide as contacts allow. This hysteresis prevents repeated
+// crossings. Cells become finer in clusters. Spheres above a volume fraction of 0.43 have lists of
+// their own (NeighbourLists). These lists have half as many particles as those of 27 cells, and
+// dense spheres leave their regions rarely.
+
 namespace clatter {
 
 /// Finds the particles near a particle, by lists of cells or of particles. The choice affects speed

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "engine/dynamics/model.h"
+#include "engine/laws/model.h"
 #include "engine/physics/collision.h"
 #include "engine/physics/flight.h"
 #include "engine/physics/spin.h"

@@ -5,8 +5,12 @@
 #include <unordered_map>
 
 #include "engine/dynamics/large_array.h"
+#include "engine/dynamics/packed_image.h"
 #include "engine/physics/flight.h"
-#include "engine/physics/packed_image.h"
+
+// A particle's state fills one cache line (Particle), because a prediction reads some 20 of them.
+// The flight keeps the frame of its start when it crosses a periodic border. Its image counts the
+// boxes since then, in 32 bits at the end of the line; ParticleArray keeps the few that are larger.
 
 namespace clatter {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "engine/dynamics/large_array.h"
-#include "engine/dynamics/model.h"
 #include "engine/dynamics/particle.h"
+#include "engine/laws/model.h"
 #include "engine/physics/pair_contact.h"
 #include "engine/physics/spin.h"
 #include "engine/vec.h"
@@ -20,6 +20,10 @@ struct ParticleStates {
   LargeArray<double> last_collisions;  ///< [N] times on the base; empty without a t_c
   LargeArray<Vec<D>> remainders;       ///< [N] rounding errors of positions; empty unless the
                                        ///< box is longer than kLongBox
+
+  /// Distinguishes flights of one number, which has 32 bits, for random numbers: the collisions and
+  /// kicks before the base, divided by 2^31. A number comes again after two eras or more.
+  std::uint32_t era = 0;
 
   /// Copies the data of a particle, but not its image.
   void copy(std::size_t to, const ParticleStates& source, std::size_t from) {

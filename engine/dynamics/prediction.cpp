@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "engine/physics/contact_kernel.h"
+#include "engine/dynamics/contact_kernel.h"
 
 namespace clatter {
 

@@ -5,9 +5,9 @@
 
 #include "engine/dynamics/boundary.h"
 #include "engine/dynamics/event.h"
-#include "engine/dynamics/model.h"
 #include "engine/dynamics/neighbourhood.h"
 #include "engine/dynamics/particle.h"
+#include "engine/laws/model.h"
 #include "engine/physics/contact.h"
 
 namespace clatter {

@@ -8,8 +8,8 @@
 
 #include "engine/dynamics/clock.h"
 #include "engine/dynamics/watchdog.h"
+#include "engine/laws/acts.h"
 #include "engine/physics/flight.h"
-#include "engine/physics/piston.h"
 #include "engine/physics/spin.h"
 #include "engine/physics/wall_motion.h"
 
@@ -75,6 +75,7 @@ struct RunState {
   double kick_interval = 0.0;  ///< of bulk driving; 0: none
   double kick_origin = 0.0;    ///< simulation time from which kicks are counted
   std::uint64_t kicks_since_origin = 0;
+  std::uint32_t era = 0;  ///< see ParticleStates
   EventCounts counts;
   RunChecks checks;
 };
@@ -140,10 +141,10 @@ template <class Archive, int D>
 void visit(Archive& io, RunState<D>& state) {
   auto& [gravity, wall_motions, phase_shifts, piston, base, now, flights, spins, last_collisions,
          remainders, until_base_moves, mean_collision_time, watchdog, start_speed, kick_interval,
-         kick_origin, kicks_since_origin, counts, checks] = state;
+         kick_origin, kicks_since_origin, era, counts, checks] = state;
   io(gravity, wall_motions, phase_shifts, piston, base, now, flights, spins, last_collisions,
      remainders, until_base_moves, mean_collision_time, watchdog, start_speed, kick_interval,
-     kick_origin, kicks_since_origin, counts, checks);
+     kick_origin, kicks_since_origin, era, counts, checks);
   io.require(makes_sense(state));
 }
 

@@ -177,9 +177,7 @@ void Simulation<D>::set_laws(const Model<D>& model) {
   set_kicks();
   loop_.set_laws(goes_on, present.gravity, start_speed_);
   look_anew();
-  if (in_tiles_ && !goes_on) {
-    make_tiles();
-  } else if (in_tiles_) {
+  if (in_tiles_) {
     way_is_open_ = true;  // events that tiles have found had the former laws
   } else if (!goes_on) {
     loop_.plan_again();
@@ -255,7 +253,11 @@ void Simulation<D>::leave_tiles() {
 
 template <int D>
 void Simulation<D>::use_threads(int threads) {
-  if (!runs_in_tiles(D, particles().size(), threads)) return;
+  if (!runs_in_tiles(D, particles().size(), threads)) {
+    foresight_.reset();
+    way_is_open_ = in_tiles_;
+    return;
+  }
   const auto count = static_cast<double>(particles().size());
   const double density = count * std::pow(model_.diameter, D) / model_.box.prod();
   use_threads(threads, tile_sizes(particles().size(), packing_fraction(D, density), threads));

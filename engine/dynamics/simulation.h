@@ -12,10 +12,11 @@
 #include "engine/dynamics/clock.h"
 #include "engine/dynamics/event_loop.h"
 #include "engine/dynamics/foresight.h"
-#include "engine/dynamics/model.h"
 #include "engine/dynamics/observer.h"
 #include "engine/dynamics/regular_times.h"
 #include "engine/dynamics/run_state.h"
+#include "engine/laws/model.h"
+#include "engine/physics/state.h"
 #include "engine/stop_request.h"
 
 namespace clatter {
@@ -44,8 +45,9 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// Continues from another saved run under other laws, as a new simulation would, with the same
-  /// observers and timers. prepare() must complete as after construction in parts.
+  /// Continues from another saved run under other laws, as a new simulation would. Observers and
+  /// timers stay without a report, so their owners must begin them anew. prepare() must complete as
+  /// after construction in parts.
   void restart(const Model<D>& model, RunState<D> saved);
   /// Changes the laws now, in one pass over the particles. If flights do not continue, as under
   /// another gravity or motion of a wall, all events are planned again. A changed interval of kicks

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "engine/dynamics/model.h"
+#include "engine/laws/model.h"
 #include "engine/vec.h"
 
 namespace clatter {

@@ -9,6 +9,10 @@
 
 #include "engine/dynamics/event.h"
 
+// Inelastic collapse is detected by the Watchdog. It compares the time of many collisions with the
+// mean time between a particle's collisions, and ends the run with a PhysicalStop. It does not
+// change the run; Simulation::save() gives the state there, as at any other time.
+
 namespace clatter {
 
 /// Collisions of one pair within 10^-6 mean collision times that are a collapse.

@@ -6,10 +6,10 @@
 
 #include "engine/dynamics/cell_grid.h"
 #include "engine/dynamics/clock.h"
-#include "engine/dynamics/model.h"
 #include "engine/error.h"
+#include "engine/laws/limits.h"
+#include "engine/laws/model.h"
 #include "engine/physics/random.h"
-#include "engine/scene/limits.h"
 
 namespace clatter {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "engine/dynamics/model.h"
+#include "engine/laws/model.h"
 #include "engine/scene/scene.h"
 #include "engine/stop_request.h"
 

@@ -8,6 +8,11 @@
 #include "engine/dynamics/simulation.h"
 #include "engine/measure/field_grid.h"
 
+// Balances close. Balance books the fluxes through the faces of cells and the sources in cells. It
+// compares them with the disks' states at both ends of a window. Measurement keeps the largest
+// residual of each cell (Residuals), and so does LiveResiduals for the plot of the window.
+// LiveField has the residuals of its averaging window.
+
 namespace clatter {
 
 /// The conserved quantities of the balance equations: mass, D components of momentum, and energy of

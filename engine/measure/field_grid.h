@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "engine/dynamics/model.h"
+#include "engine/laws/model.h"
 #include "engine/physics/fall_time.h"
 #include "engine/physics/flight.h"
 #include "engine/vec.h"

@@ -10,6 +10,11 @@
 #include "engine/measure/moment_layout.h"
 #include "engine/scene/scene.h"
 
+// Maps are stored as sums. The sums of a window go to the columns of the profile and to PartSums:
+// at most 64 parts of the run. Parts are joined in pairs, and so become longer with the run. Memory
+// and checkpoints stay bounded. All parts together give the average over the whole time. Its mean
+// flow is removed as for any other average: field_value of the sums.
+
 namespace clatter {
 
 /// Fields on the cells of a grid over the whole box, averaged over a span of time.

@@ -106,7 +106,7 @@ Measurement<D>::Measurement(Simulation<D>& simulation, const Measure& measure, d
 template <int D>
 void Measurement<D>::plan_averages() {
   averages_start_ = std::max(measure_.burn_in, simulation_.time());
-  const double span = end_ - averages_start_;
+  const double span = std::max(0.0, end_ - averages_start_);
   window_ = span / windows_in(span, measure_.series_interval);
   started_ = false;
   windows_.clear();

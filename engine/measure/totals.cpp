@@ -97,6 +97,8 @@ void Totals<D>::before_laws(const Model<D>& next) {
   const Model<D>& present = simulation_.model();
   integrate_to(simulation_.base_time());
   change_inertia(inertia_of(present), inertia_of(next));
+  // The integral is multiplied by the inertia at the end of the window.
+  spin_integral_ *= inertia_of(present) / inertia_of(next);
   if (!keeps_flights<D>(present, next)) end_flights();
 }
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/dynamics/model.h"
+#include "engine/laws/model.h"
 #include "engine/vec.h"
 
 namespace clatter {

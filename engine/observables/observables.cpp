@@ -19,6 +19,7 @@
 #include "engine/observables/velocity_distribution.h"
 #include "engine/observables/wall_hits.h"
 #include "engine/observables/wall_power.h"
+#include "engine/scene/act_checks.h"
 
 namespace clatter {
 

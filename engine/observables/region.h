@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "engine/dynamics/model.h"
+#include "engine/laws/model.h"
 #include "engine/scene/observable_settings.h"
 
 namespace clatter {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/dynamics/model.h"
+#include "engine/laws/model.h"
 
 namespace clatter {
 

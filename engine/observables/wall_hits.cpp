@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string>
 
+#include "engine/laws/wall.h"
 #include "engine/observables/histogram.h"
 #include "engine/observables/log_bins.h"
-#include "engine/scene/wall.h"
 
 namespace clatter {
 

@@ -3,9 +3,9 @@
 #include <numeric>
 #include <string>
 
+#include "engine/laws/wall.h"
 #include "engine/observables/histogram.h"
 #include "engine/observables/signed_bins.h"
-#include "engine/scene/wall.h"
 
 namespace clatter {
 

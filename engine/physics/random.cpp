@@ -20,9 +20,11 @@ std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
   return counter;
 }
 
-// The low word of the counter numbers the blocks of four words.
-Random::Random(std::uint64_t seed, Stream stream, std::uint32_t owner, std::uint32_t item)
-    : counter_{0, item, owner, static_cast<std::uint32_t>(stream)},
+// The low word of the counter numbers the blocks of four words. A stream takes the low 8 bits of the
+// high word.
+Random::Random(std::uint64_t seed, Stream stream, std::uint32_t owner, std::uint64_t item)
+    : counter_{0, static_cast<std::uint32_t>(item), owner,
+               static_cast<std::uint32_t>(stream) | static_cast<std::uint32_t>(item >> 32) << 8},
       key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)} {}
 
 std::uint64_t Random::bits() {

@@ -10,7 +10,7 @@
 #include "engine/scene/key_writer.h"
 #include "engine/scene/scene_keys.h"
 #include "engine/scene/schedule.h"
-#include "engine/scene/text.h"
+#include "engine/text.h"
 
 namespace clatter {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "engine/scene/scene_document.h"
-#include "engine/scene/text.h"
+#include "engine/text.h"
 
 namespace clatter {
 

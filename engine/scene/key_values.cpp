@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/scene/text.h"
+#include "engine/text.h"
 
 namespace clatter {
 

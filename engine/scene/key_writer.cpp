@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/scene/text.h"
+#include "engine/text.h"
 
 namespace clatter {
 

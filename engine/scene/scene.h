@@ -2,18 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/laws/acts.h"
+#include "engine/laws/model.h"
+#include "engine/laws/wall.h"
 #include "engine/physics/lattice.h"
 #include "engine/physics/state.h"
 #include "engine/scene/field.h"
-#include "engine/scene/nudge.h"
 #include "engine/scene/observable_settings.h"
-#include "engine/scene/puff.h"
 #include "engine/scene/view.h"
-#include "engine/scene/wall.h"
 #include "engine/vec.h"
 
 namespace clatter {
@@ -38,13 +39,6 @@ struct Particles {
   Roughness roughness = {};
   double inertia = 0.5;  ///< q = 4I/(m a^2), 0..1: 1/2 for a uniform disk, 2/5 for a uniform sphere
   Start start;
-};
-
-/// Homogeneous driving: periodic kicks of all particles at once (theory 5.1).
-struct BulkDrive {
-  double interval = 1.0;    ///< time between kicks, > 0
-  double kick_speed = 0.0;  ///< standard deviation of a kick per velocity component; mean removed
-  double kick_spin = 0.0;   ///< standard deviation of the change of spin
 };
 
 /// Coarse-graining kernel of fields (theory 8): the cell of the particle, or a Gaussian.
@@ -159,6 +153,10 @@ Room<D> Scene::start_room() const {
   for (int axis = 0; axis < D; ++axis) room.walled[axis] = !periodic(axis);
   return room;
 }
+
+/// The laws of a scene of D dimensions, for the random numbers of a seed.
+template <int D>
+Model<D> model_of(const Scene& scene, std::uint64_t seed);
 
 /// A scene in two or three dimensions with all defaults and without particles.
 Scene default_scene(int dimension);

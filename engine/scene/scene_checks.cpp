@@ -8,12 +8,12 @@
 #include "engine/error.h"
 #include "engine/physics/lattice.h"
 #include "engine/physics/theory.h"
+#include "engine/scene/act_checks.h"
 #include "engine/scene/enum_names.h"
 #include "engine/scene/limits.h"
 #include "engine/scene/marked_text.h"
-#include "engine/scene/piston.h"
 #include "engine/scene/scene_document.h"
-#include "engine/scene/text.h"
+#include "engine/text.h"
 
 namespace clatter {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cctype>
 
-#include "engine/scene/text.h"
+#include "engine/text.h"
 
 namespace clatter {
 

@@ -18,8 +18,8 @@
 #include "engine/scene/scene_keys.h"
 #include "engine/scene/schedule.h"
 #include "engine/scene/state_file.h"
-#include "engine/scene/text.h"
 #include "engine/system/read_file.h"
+#include "engine/text.h"
 
 namespace clatter {
 

@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
 
 #include "engine/error.h"
 #include "engine/scene/key_writer.h"
 #include "engine/scene/scene_document.h"
-#include "engine/scene/text.h"
+#include "engine/text.h"
 
 namespace clatter {
 
@@ -39,6 +41,22 @@ static void require_same_sides(const Scene& before, const Scene& now) {
   }
 }
 
+// The number of a rough partner's key that the scene leaves out; absent for other keys.
+static std::optional<double> default_in_force(const Scene& laws, const std::string& key) {
+  const std::size_t dot = key.rfind('.');
+  const std::string owner = key.substr(0, dot), name = key.substr(dot + 1);
+  const Roughness* rough = owner == "particles" ? &laws.particles.roughness : nullptr;
+  for (std::size_t side = 0; side < laws.walls.size(); ++side) {
+    if (laws.walls[side] && owner == std::string("walls.") + kSideNames[side]) {
+      rough = &laws.walls[side]->roughness;
+    }
+  }
+  if (!rough || (!rough->friction && !rough->tangential_restitution)) return std::nullopt;
+  if (name == "friction") return rough->friction_in_force();
+  if (name == "tangential_restitution") return rough->tangential_restitution_in_force();
+  return std::nullopt;
+}
+
 // The numbers of a ramp after a share of the way from the current values to the targets.
 static std::vector<Override> on_the_way(const Scene& laws, const std::vector<Override>& targets,
                                         double share) {
@@ -46,7 +64,8 @@ static std::vector<Override> on_the_way(const Scene& laws, const std::vector<Ove
   std::vector<Override> settings;
   for (const auto& [key, value] : targets) {
     const toml::table wanted = parse_document("value = " + value, "");
-    const auto from = now.at_path(key).value<double>();
+    const auto given = now.at_path(key).value<double>();
+    const auto from = given ? given : default_in_force(laws, key);
     const auto to = wanted["value"].value<double>();
     if (!from || !to) {
       throw UserError({},

@@ -14,7 +14,7 @@
 #include "engine/error.h"
 #include "engine/scene/csv_line.h"
 #include "engine/scene/limits.h"
-#include "engine/scene/text.h"
+#include "engine/text.h"
 #include "engine/whole_number.h"
 
 namespace clatter {

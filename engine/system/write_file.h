@@ -5,6 +5,13 @@
 
 #include "engine/system/file_descriptor.h"
 
+// Files appear whole or not at all, even if the machine stops (engine/system/write_file.h). They
+// are written in the same folder under another name, synced and renamed. A lock shows that the
+// hidden file is in use, so that a later run can remove those of killed runs (remove_leftovers).
+// Devices and pipes are written into. Exception: trajectories and event logs are written in place,
+// so that they can be read during the run. They are synced before each checkpoint and at the end. A
+// resumed run cuts the records after its checkpoint.
+
 namespace clatter {
 
 /// Whether a path is a device, a pipe, or an open file of this process such as /dev/stdout. These

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "engine/publish/snapshot.h"
+#include "engine/picture/snapshot.h"
 #include "render/colour_range.h"
 #include "render/layers/legend.h"
 

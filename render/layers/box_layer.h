@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/publish/snapshot.h"
+#include "engine/picture/snapshot.h"
 #include "render/layers/face_layer.h"
 #include "render/layers/line_layer.h"
 #include "render/layers/wall_colours.h"

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/publish/snapshot.h"
+#include "engine/picture/snapshot.h"
 #include "render/tiling.h"
 
 namespace clatter {

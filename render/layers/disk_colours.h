@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "engine/publish/snapshot.h"
+#include "engine/picture/snapshot.h"
 #include "render/layers/light_layer.h"
 #include "render/palette.h"
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/publish/snapshot.h"
+#include "engine/picture/snapshot.h"
 #include "render/camera.h"
 #include "render/gl/shader_program.h"
 #include "render/layers/coverage.h"

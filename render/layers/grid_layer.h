@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/publish/snapshot.h"
+#include "engine/picture/snapshot.h"
 #include "render/camera.h"
 #include "render/gl/shader_program.h"
 #include "render/palette.h"

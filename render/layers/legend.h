@@ -7,8 +7,8 @@
 
 #include "render/label.h"
 #include "render/layers/arrow_layer.h"
-#include "render/layers/fonts.h"
 #include "render/palette.h"
+#include "render/typography/fonts.h"
 
 namespace clatter {
 

@@ -7,6 +7,12 @@
 #include "render/layers/coverage.h"
 #include "render/layers/wall_layer.h"
 
+// Light. Particles are blended in linear light, and several samples per pixel are averaged in it.
+// So a picture has the same colours as a finer picture seen from far away. A picture of faded
+// particles is the mean of one with them and one without. Particles below 1.5 pixels in radius have
+// no shape: Coverage sums their light and area in each pixel. Those of spheres are composed from
+// front to back.
+
 namespace clatter {
 
 /// Blending of disks with the picture below.

@@ -12,10 +12,10 @@
 #include "engine/scene/enum_names.h"
 #include "render/eye.h"
 #include "render/layers/grid_layer.h"
-#include "render/layers/marked_line.h"
 #include "render/layers/wall_layer.h"
 #include "render/tiling.h"
 #include "render/typeset_number.h"
+#include "render/typography/marked_line.h"
 
 namespace clatter {
 
@@ -51,7 +51,7 @@ float unit_for(Size size, const OverlayText& text) {
 
 // The text without the parts that the view hides. Title cards have the whole text.
 OverlayText shown_text(OverlayText text, const View& view) {
-  if (view.hides(OverlayPart::Title)) text.title.clear(), text.beside.clear();
+  if (view.hides(OverlayPart::Title)) text.title.clear(), text.others.clear();
   if (view.hides(OverlayPart::Caption)) text.caption.clear();
   return text;
 }
@@ -79,7 +79,7 @@ Page arrange(Arrangement arrangement, const Fonts& fonts, const ThemeColours& th
   float end = page.caption = edge;
   if (!text.title.empty()) {
     float height = text_extent(fonts.title, text.title, page.wrap).y;
-    for (const std::string& title : text.beside) {
+    for (const std::string& title : text.others) {
       height = std::max(height, text_extent(fonts.title, title, page.wrap).y);
     }
     end += height;

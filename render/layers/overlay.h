@@ -3,12 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "engine/publish/snapshot.h"
+#include "engine/picture/snapshot.h"
 #include "render/camera.h"
-#include "render/layers/gui_context.h"
-#include "render/layers/gui_layer.h"
 #include "render/layers/legend.h"
 #include "render/theme.h"
+#include "render/typography/gui_context.h"
+#include "render/typography/gui_layer.h"
 
 namespace clatter {
 
@@ -21,7 +21,7 @@ struct OverlayText {
   double least = 0.0;    ///< smallest size of the text, pixels
   double speed = 1.0;    ///< simulation time per second, of captions that fade
   /// Titles of the pictures beside this one. The headings of all of them have one height.
-  std::vector<std::string> beside = {};
+  std::vector<std::string> others = {};
 };
 
 /// Opacity of a title card `time` seconds after the beginning of a film. The card lasts `length`

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "engine/publish/snapshot.h"
+#include "engine/picture/snapshot.h"
 #include "engine/stop_request.h"
 #include "render/camera.h"
 #include "render/gl/light_copy.h"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "engine/publish/snapshot.h"
+#include "engine/picture/snapshot.h"
 #include "render/layers/face_layer.h"
 #include "render/layers/field_texture.h"
 

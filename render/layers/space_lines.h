@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "engine/publish/snapshot.h"
+#include "engine/picture/snapshot.h"
 #include "render/layers/disk_colours.h"
 #include "render/layers/line_layer.h"
 

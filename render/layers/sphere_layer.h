@@ -5,11 +5,21 @@
 #include <string>
 #include <vector>
 
-#include "engine/publish/snapshot.h"
+#include "engine/picture/snapshot.h"
 #include "render/drawn_region.h"
 #include "render/eye.h"
 #include "render/gl/shader_program.h"
 #include "render/layers/disk_colours.h"
+
+// Spheres. An Eye maps the world to view coordinates, and these to pixels and depths. Each sphere
+// is a rectangle; sphere.frag finds the point where the ray of a pixel meets the sphere. Equal
+// spheres that do not overlap hide each other in the order of their distances. So they are drawn
+// from back to front, and their soft edges blend with the spheres behind. Occlusion has a bit for
+// each pixel, and leaves out hidden spheres. Cut spheres need a slower shader, so they are drawn in
+// runs of their own. NeighbourShade is the ambient occlusion of a sphere by its neighbours, to
+// second order in the normal. It depends on no pixel, so it is the same at all sizes. Planes of a
+// slab and of periodic borders cut spheres flat. Sides of the box and slices come first, edges of
+// the box last, tested against the depths.
 
 namespace clatter {
 

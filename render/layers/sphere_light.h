@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/publish/snapshot.h"
+#include "engine/picture/snapshot.h"
 #include "render/eye.h"
 #include "render/layers/coverage.h"
 #include "render/layers/disk_colours.h"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "engine/publish/snapshot.h"
+#include "engine/picture/snapshot.h"
 #include "render/camera.h"
 #include "render/gl/shader_program.h"
 #include "render/layers/strokes.h"

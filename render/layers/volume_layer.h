@@ -2,10 +2,15 @@
 
 #include <vector>
 
-#include "engine/publish/snapshot.h"
+#include "engine/picture/snapshot.h"
 #include "render/eye.h"
 #include "render/gl/shader_program.h"
 #include "render/layers/disk_colours.h"
+
+// The volume is a field as fog that emits and absorbs light. volume.frag follows the ray of each
+// pixel from cell to cell to the surface in the depth buffer. Cells are uniform, so their light is
+// a sum of exponentials without a step. Spheres without a shape have no depths, so the volume is in
+// front of them.
 
 namespace clatter {
 

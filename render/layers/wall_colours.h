@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "engine/scene/wall.h"
+#include "engine/laws/wall.h"
 #include "render/layers/legend.h"
 #include "render/theme.h"
 

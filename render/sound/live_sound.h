@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "engine/publish/played_stretch.h"
+#include "engine/live/played_stretch.h"
 #include "render/sound/synthesiser.h"
 
 namespace clatter {

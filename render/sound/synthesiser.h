@@ -5,7 +5,14 @@
 #include <span>
 #include <vector>
 
-#include "engine/publish/click_recorder.h"
+#include "engine/live/click_recorder.h"
+
+// Sound of a film has three steps. ClickRecorder observes collisions, Synthesiser turns their
+// clicks into samples, and a sink appends the samples to a WavFile. ffmpeg encodes this file when
+// pieces are joined, so an encoder of sound never depends on pieces. FilmState has the state of the
+// synthesiser and the checksum of the samples before the next frame. A resumed film cuts the file
+// there. The synthesiser has one resonator per semitone, so its cost hardly depends on the number
+// of clicks. Without sound nothing observes the collisions.
 
 namespace clatter {
 

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
+#include "app/measure/accuracy_goal.h"
 #include "app/results/result_json.h"
-#include "app/runs/accuracy_goal.h"
 
 namespace clatter {
 

@@ -10,7 +10,7 @@
 #include "app/bench/accuracy_output.h"
 #include "app/bench/run_result.h"
 #include "engine/measure/measurement.h"
-#include "engine/publish/scheduled_run.h"
+#include "engine/run/scheduled_run.h"
 #include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 

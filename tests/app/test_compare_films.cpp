@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/runs/compared_scenes.h"
-#include "app/runs/film_ranges.h"
+#include "app/film/compared_scenes.h"
+#include "app/film/film_ranges.h"
 #include "engine/scene/scene_file.h"
 #include "render/output/image.h"
 #include "tests/app/film_scene.h"

@@ -6,7 +6,7 @@
 #include <random>
 #include <string>
 
-#include "app/results/frame_reader.h"
+#include "app/import/frame_reader.h"
 #include "app/results/isolated_hdf5.h"
 #include "engine/error.h"
 #include "tests/app/trajectory_scenes.h"

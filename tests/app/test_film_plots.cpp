@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "app/plots/plot_recorder.h"
-#include "engine/publish/watched_run.h"
+#include "engine/live/watched_run.h"
 #include "engine/scene/scene_file.h"
+#include "render/charts/plot_strip.h"
 #include "render/context/context.h"
-#include "render/layers/plot_strip.h"
 #include "render/output/cells.h"
 #include "tests/app/film_scene.h"
 #include "tests/render/picture.h"
@@ -123,11 +123,11 @@ TEST_CASE("Film plots: their values are those of the window at the same times") 
   frame.speed = kSpeed;
   for (int sample = 1; sample <= 120; ++sample) {
     window->run_until(sample * kSpeed / History::kPerSecond, kNoLimit, kNoLimit);
-    window->tell(frame, false);
+    window->fill(frame, false);
     history.add(frame);
   }
   window->run_until(6.02, kNoLimit, kNoLimit);
-  window->tell(frame, false);
+  window->fill(frame, false);
   // The window closes its sums at further times.
   check_same(film.plots(), plots_of_film(scene, {&history, &frame, ""}), 1e-12);
   CHECK(history.samples().size() == 120);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "app/runs/film_ranges.h"
+#include "app/film/film_ranges.h"
 #include "tests/support/shell.h"
 
 namespace clatter {

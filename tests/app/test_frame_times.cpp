@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/runs/frame_times.h"
+#include "app/film/frame_times.h"
 #include "render/output/image.h"
 #include "tests/app/film_scene.h"
 

@@ -7,7 +7,7 @@
 
 #include "app/plots/history.h"
 #include "app/results/theory_json.h"
-#include "engine/publish/watched_run.h"
+#include "engine/live/watched_run.h"
 #include "tests/app/plot_checks.h"
 
 namespace clatter {
@@ -64,7 +64,7 @@ TEST_CASE("Plots: a constant quantity looks constant, in spite of rounding error
   frame.run = 1;
   for (double time = 1.0; time < 20.0; time += 1.0) {
     run->run_until(time, kNoLimit, kNoLimit);
-    run->tell(frame, false);
+    run->fill(frame, false);
     history.add(frame);
   }
   for (const LivePlot& plot : plots_of(history, frame, 0, theme_of(View{}))) {

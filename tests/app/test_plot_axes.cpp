@@ -8,8 +8,8 @@
 
 #include "app/plots/plots.h"
 #include "app/view/plot.h"
-#include "render/layers/fonts.h"
-#include "render/layers/gui_context.h"
+#include "render/typography/fonts.h"
+#include "render/typography/gui_context.h"
 #include "tests/support/drawn_text.h"
 
 namespace clatter {

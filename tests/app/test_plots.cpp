@@ -10,7 +10,7 @@
 
 #include "app/results/theory_json.h"
 #include "engine/error.h"
-#include "engine/publish/watched_run.h"
+#include "engine/live/watched_run.h"
 #include "engine/scene/scene_file.h"
 #include "tests/app/plot_checks.h"
 
@@ -251,7 +251,7 @@ window = 2.0
   const auto plots_after = [&](Profiled profiled, Axis axis, std::size_t name, double duration) {
     run->show_profile(profiled, axis);
     run->run_until(run->time() + duration, kNoLimit, kNoLimit);
-    run->tell(frame, false);
+    run->fill(frame, false);
     history.add(frame);
     return plots_of(history, frame, name, kDarkTheme);
   };
@@ -308,7 +308,7 @@ TEST_CASE("Plots: all axes are finite for a gas without motion, or one that come
       frame.run = 1;
       for (double time : {0.0, 1.0, 2.0, 20.0}) {
         go_on(*run, time);
-        run->tell(frame, false);
+        run->fill(frame, false);
         history.add(frame);
         for (std::size_t name = 0; name < profile_names(Axis::X).size(); ++name) {
           for (const LivePlot& plot : plots_of(history, frame, name, kDarkTheme)) {

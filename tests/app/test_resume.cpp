@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/runs/measure_run.h"
+#include "app/measure/measure_run.h"
 #include "app/system/exit_code.h"
 #include "engine/checkpoint/checkpoint.h"
 #include "engine/error.h"

@@ -7,7 +7,7 @@
 #include "app/bench/run_result.h"
 #include "app/bench/time_stepped.h"
 #include "engine/physics/walls.h"
-#include "engine/publish/scheduled_run.h"
+#include "engine/run/scheduled_run.h"
 
 namespace clatter {
 

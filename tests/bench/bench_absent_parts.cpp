@@ -7,7 +7,7 @@
 #include <ctime>
 #include <vector>
 
-#include "engine/publish/scheduled_run.h"
+#include "engine/run/scheduled_run.h"
 #include "engine/scene/scene_file.h"
 
 using namespace clatter;

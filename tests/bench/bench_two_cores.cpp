@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/dynamics/observer.h"
-#include "engine/publish/scheduled_run.h"
+#include "engine/run/scheduled_run.h"
 #include "tests/bench/table.h"
 
 using namespace clatter;

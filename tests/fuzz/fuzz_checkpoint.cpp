@@ -17,7 +17,7 @@
 #include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/measure/measurement.h"
-#include "engine/publish/scheduled_run.h"
+#include "engine/run/scheduled_run.h"
 #include "engine/scene/scene_file.h"
 #include "engine/system/checksum.h"
 #include "engine/system/read_file.h"

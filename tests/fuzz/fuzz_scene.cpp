@@ -20,7 +20,7 @@
 #include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/measure/measurement.h"
-#include "engine/publish/scheduled_run.h"
+#include "engine/run/scheduled_run.h"
 #include "engine/scene/key_lister.h"
 #include "engine/scene/scene_file.h"
 #include "engine/scene/scene_keys.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "engine/publish/snapshot.h"
+#include "engine/picture/snapshot.h"
 #include "render/context/context.h"
 #include "render/gl/canvas.h"
 #include "render/layers/renderer.h"

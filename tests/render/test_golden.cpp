@@ -5,7 +5,7 @@
 
 #include "engine/dimension.h"
 #include "engine/error.h"
-#include "engine/publish/scheduled_run.h"
+#include "engine/run/scheduled_run.h"
 #include "engine/scene/scene_file.h"
 #include "render/camera_path.h"
 #include "render/layers/renderer.h"

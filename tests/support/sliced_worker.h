@@ -3,12 +3,12 @@
 #include <chrono>
 #include <utility>
 
-#include "engine/publish/worker.h"
+#include "engine/live/worker.h"
 
 namespace clatter::testing {
 
 /// Executes a command, and works until the gases halt. Returns the frame then.
-inline const Frame& obey(SlicedWorker& engine, Command command) {
+inline const Frame& execute(SlicedWorker& engine, Command command) {
   engine.send(std::move(command));
   while (engine.busy()) engine.work(std::chrono::milliseconds(50));
   engine.frames().update();

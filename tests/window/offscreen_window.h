@@ -9,8 +9,8 @@
 
 #include "app/view/gui.h"
 #include "render/context/context.h"
-#include "render/layers/gui_context.h"
 #include "render/output/image.h"
+#include "render/typography/gui_context.h"
 #include "tests/support/temporary_folder.h"
 
 namespace clatter {

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "app/view/style.h"
-#include "render/layers/fonts.h"
+#include "render/typography/fonts.h"
 #include "tests/window/logged_widgets.h"
 
 namespace clatter {

@@ -6,8 +6,8 @@
 
 #include "app/view/controls.h"
 #include "app/view/panel_visibility.h"
-#include "render/layers/fonts.h"
-#include "render/layers/gui_context.h"
+#include "render/typography/fonts.h"
+#include "render/typography/gui_context.h"
 #include "tests/support/temporary_folder.h"
 
 namespace clatter {

@@ -17,7 +17,7 @@
 #include "app/view/stopwatch.h"
 #include "engine/error.h"
 #include "engine/scene/scene_file.h"
-#include "render/layers/gui_context.h"
+#include "render/typography/gui_context.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/window/gui_driver.h"
 #include "tests/window/offscreen_window.h"

@@ -138,15 +138,15 @@ TEST_CASE("Buttons: those of a comparison add, select and remove a gas") {
   driver.wait_for([](const Frame& now) { return now.run == 1; });
   check_lines(driver.lines(), {"### Compare ###", "[ Add a copy ]"});
   tick(driver, "compare.add");
-  driver.wait_for([](const Frame& now) { return now.beside.size() == 1 && now.gas == 1; });
+  driver.wait_for([](const Frame& now) { return now.others.size() == 1 && now.gas == 1; });
   check_lines(driver.lines(),
               {"### Compare ###", "Gas", "{ B: second }", "[ Add a copy ]", "[ Remove this gas ]"});
   choose(driver, "compare.gas", "A: first");
   driver.wait_for([](const Frame& now) { return now.gas == 0; });
   CHECK(driver.session().gas() == 0);
-  const std::uint64_t second = driver.session().frame().beside[0].id;
+  const std::uint64_t second = driver.session().frame().others[0].id;
   tick(driver, "compare.remove");
-  driver.wait_for([](const Frame& now) { return now.beside.empty(); });
+  driver.wait_for([](const Frame& now) { return now.others.empty(); });
   CHECK(driver.session().frame().id == second);
   CHECK(driver.session().gases() == 1);
 }

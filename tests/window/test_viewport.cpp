@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "app/view/viewport.h"
-#include "engine/publish/scheduled_run.h"
+#include "engine/run/scheduled_run.h"
 #include "engine/scene/scene_file.h"
 #include "render/context/context.h"
-#include "render/layers/gui_context.h"
 #include "render/output/cells.h"
+#include "render/typography/gui_context.h"
 #include "tests/render/picture.h"
 #include "tests/support/messages.h"
 #include "tests/support/scenes.h"
@@ -168,7 +168,7 @@ TEST_CASE("Viewport: compared gases with equal boxes have the camera of the sele
   selected.gas = 1;
   Frame former = frame_of(scene), latter = frame_of(other);
   latter.gas = 2;
-  selected.beside = {former, latter};
+  selected.others = {former, latter};
   Viewport viewport(context->gl());
   const auto cells = [&](Viewport& drawn) {
     drawn.redraw();
@@ -192,7 +192,7 @@ TEST_CASE("Viewport: compared gases with equal boxes have the camera of the sele
   other.box = Vec2(30.0, 20.0);
   Frame resized = frame_of(other);
   resized.gas = 2;
-  selected.beside[1] = resized;
+  selected.others[1] = resized;
   Viewport fresh(context->gl());
   const auto wider = cells(viewport);
   CHECK(wider[0] == zoomed[0]);

@@ -8,7 +8,7 @@
 #include <chrono>
 #include <thread>
 
-#include "engine/publish/watched_run.h"
+#include "engine/live/watched_run.h"
 #include "engine/scene/scene_file.h"
 #include "tests/support/messages.h"
 #include "tests/window/offscreen_window.h"
@@ -79,7 +79,7 @@ TEST_CASE("Window texts: the effect of the contact time is that of a frame of th
   const auto run = watched_run(scene, 1);
   run->run_until(1.0, kNoLimit, kNoLimit);
   Frame frame;
-  run->tell(frame, true);
+  run->fill(frame, true);
   REQUIRE(frame.contact_time_error);
   OffscreenWindow window(scene, 1280.0f, 1840.0f, 1.0);
   window.settle();

@@ -53,6 +53,7 @@ Checkpoint example() {
   saved.kick_interval = 0.0625;
   saved.kick_origin = 1e9 + 12.0;
   saved.kicks_since_origin = 13;
+  saved.era = 3;
   saved.counts = {14, 15, 16, 17, 18, 19, 20};
   saved.checks = {1e-14, 1e-15};
   return {"clatter 9.8", "measure",    "title = \"ρ\"\n", 0.5, 42, saved, std::string("\0bytes", 6),
@@ -148,6 +149,7 @@ TEST_CASE("Checkpoint: a change of any one member changes the file") {
       [](Checkpoint& c) { disks(c).kick_interval += 1.0; },
       [](Checkpoint& c) { disks(c).kick_origin += 1.0; },
       [](Checkpoint& c) { ++disks(c).kicks_since_origin; },
+      [](Checkpoint& c) { ++disks(c).era; },
       [](Checkpoint& c) { ++disks(c).counts.pair_collisions; },
       [](Checkpoint& c) { ++disks(c).counts.wall_collisions; },
       [](Checkpoint& c) { ++disks(c).counts.kicks; },

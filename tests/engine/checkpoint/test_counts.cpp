@@ -7,8 +7,8 @@
 
 #include "engine/error.h"
 #include "engine/measure/measurement.h"
-#include "engine/publish/live_field.h"
-#include "engine/publish/scheduled_run.h"
+#include "engine/picture/live_field.h"
+#include "engine/run/scheduled_run.h"
 #include "engine/scene/scene_file.h"
 
 using namespace clatter;
@@ -54,8 +54,8 @@ TEST_CASE("Counts: samples that should have been long ago are refused, not made 
     const std::string saved = measurement.save();
     const auto resume = [&](const std::string& bytes) {
       ScheduledRun<2> resumed(scene, 1, run.simulation().save());
-      Measurement<2>(resumed.simulation(), scene.measure, 20.0,
-                      ArchiveReader(bytes, "a"), Averages::GoOn);
+      Measurement<2>(resumed.simulation(), scene.measure, 20.0, ArchiveReader(bytes, "a"),
+                     Averages::GoOn);
     };
     CHECK_NOTHROW(resume(saved));
     CHECK_THROWS_AS(resume(with_number(saved, 1234, 7)), UserError);

@@ -16,7 +16,7 @@
 #include "engine/error.h"
 #include "engine/initial/start_state.h"
 #include "engine/physics/random.h"
-#include "engine/publish/scheduled_run.h"
+#include "engine/run/scheduled_run.h"
 #include "engine/scene/scene_file.h"
 #include "tests/engine/support/gas.h"
 

@@ -8,7 +8,7 @@
 #include "engine/dynamics/neighbourhood.h"
 #include "engine/initial/start_state.h"
 #include "engine/physics/random.h"
-#include "engine/publish/scheduled_run.h"
+#include "engine/run/scheduled_run.h"
 
 using namespace clatter;
 

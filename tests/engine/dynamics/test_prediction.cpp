@@ -11,7 +11,7 @@
 #include "engine/dynamics/simulation.h"
 #include "engine/physics/contact.h"
 #include "engine/physics/random.h"
-#include "engine/publish/scheduled_run.h"
+#include "engine/run/scheduled_run.h"
 #include "tests/support/scenes.h"
 
 using namespace clatter;

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -116,4 +117,30 @@ TEST_CASE("State hash: it is the same whenever cells are fitted to a cluster") {
   check_sound(*parts);
   CHECK(parts->state_hash() == whole.state_hash());
   CHECK(parts->counts().cell_crossings < whole.counts().cell_crossings);
+}
+
+// Speeds of one disk after its hits of thermal walls. Before the first one it has had so many.
+static std::vector<double> emitted_speeds(std::uint64_t before, std::uint64_t hits) {
+  const Model<2> model = four(kThermal, kThermal);
+  RunState<2> state = Simulation<2>(model, {{{4.0, 4.0}}, {{1.0, 0.3}}}).save();
+  state.flights[0].number = static_cast<std::uint32_t>(before);
+  state.counts.wall_collisions = before;
+  state.era = static_cast<std::uint32_t>(before >> 31);
+  Simulation<2> simulation(model, state);
+  std::vector<double> speeds;
+  for (std::uint64_t hit = 1; hit <= hits; ++hit) {
+    simulation.run_until(kNever, before + hit);
+    speeds.push_back(simulation.particles()[0].flight.v.norm());
+  }
+  return speeds;
+}
+
+TEST_CASE("Random numbers: they do not repeat with the 32 bits of a flight's number") {
+  constexpr std::uint64_t kBefore = 100, kHits = 300;
+  const std::vector<double> first = emitted_speeds(0, kHits);
+  const std::vector<double> later = emitted_speeds((std::uint64_t{1} << 32) - kBefore, kHits);
+  for (std::size_t hit = 0; hit + kBefore < kHits; ++hit) {
+    CHECK(later[hit + kBefore] != first[hit]);
+  }
+  CHECK(emitted_speeds(0, kHits) == first);
 }

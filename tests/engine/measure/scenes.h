@@ -4,7 +4,7 @@
 
 #include "engine/dynamics/simulation.h"
 #include "engine/initial/start_state.h"
-#include "engine/publish/scheduled_run.h"
+#include "engine/run/scheduled_run.h"
 #include "tests/support/scenes.h"
 
 namespace clatter::testing {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/measure/measurement.h"
-#include "engine/publish/scheduled_run.h"
+#include "engine/run/scheduled_run.h"
 #include "tests/support/scenes.h"
 
 namespace clatter::testing {

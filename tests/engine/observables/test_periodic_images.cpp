@@ -4,7 +4,7 @@
 
 #include "engine/checkpoint/archive.h"
 #include "engine/observables/periodic_images.h"
-#include "engine/publish/scheduled_run.h"
+#include "engine/run/scheduled_run.h"
 #include "tests/support/scenes.h"
 
 using namespace clatter;

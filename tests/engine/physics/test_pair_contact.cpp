@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/dynamics/contact_kernel.h"
 #include "engine/dynamics/particle.h"
-#include "engine/physics/contact_kernel.h"
 #include "engine/physics/flight.h"
 #include "engine/physics/pair_contact.h"
 #include "engine/physics/random.h"

@@ -71,6 +71,17 @@ TEST_CASE("Schedule: a ramp goes from the value in force to its own in equal ste
   CHECK(schedule.next() == std::numeric_limits<double>::infinity());
 }
 
+TEST_CASE("Schedule: a ramp of a rough partner begins at the default beside the other number") {
+  const Scene scene = scene_with_changes(
+      "friction = 0.2\n[[change]]\ntime = 0\nuntil = 64\nramp = 'linear'\n"
+      "set = { 'walls.right.tangential_restitution' = 0.36 }\n");
+  Schedule schedule(scene);
+  schedule.skip_to(1.0);
+  CHECK(*schedule.laws().walls[kRight]->roughness.tangential_restitution == doctest::Approx(0.99));
+  schedule.skip_to(64.0);
+  CHECK(*schedule.laws().walls[kRight]->roughness.tangential_restitution == 0.36);
+}
+
 TEST_CASE("Schedule: a change added during the run comes before later ones") {
   Schedule schedule(
       scene_with_changes("[[change]]\ntime = 5\nset = { 'particles.restitution' = 0.5 }\n"));

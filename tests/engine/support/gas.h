@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "engine/dynamics/model.h"
 #include "engine/dynamics/simulation.h"
+#include "engine/laws/model.h"
 #include "tests/engine/support/models.h"
 
 namespace clatter::testing {

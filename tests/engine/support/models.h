@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "engine/dynamics/model.h"
+#include "engine/laws/model.h"
 
 namespace clatter::testing {
 

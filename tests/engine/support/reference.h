@@ -7,8 +7,8 @@
 #include "engine/dynamics/boundary.h"
 #include "engine/dynamics/clock.h"
 #include "engine/dynamics/event.h"
-#include "engine/dynamics/model.h"
 #include "engine/dynamics/simulation.h"
+#include "engine/laws/model.h"
 #include "engine/physics/flight.h"
 
 namespace clatter::testing {

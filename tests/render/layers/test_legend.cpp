@@ -3,8 +3,8 @@
 #include <cmath>
 #include <functional>
 
-#include "render/layers/gui_context.h"
 #include "render/layers/legend.h"
+#include "render/typography/gui_context.h"
 #include "tests/render/picture.h"
 #include "tests/support/drawn_text.h"
 

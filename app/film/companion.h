@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/film/compared_scenes.h"
+#include "app/film/sound_preview.h"
+#include "app/plots/plot_recorder.h"
+#include "engine/picture/snapshot.h"
+#include "render/layers/renderer.h"
+
+// Films of several gases have a FilmCell per gas, which draws it as if it were alone. The first gas
+// is the Run. Each of the others is a Companion that runs to the same times; it hides whether its
+// scene has disks or spheres. Colour ranges are the larger ends of all cells. The companions' runs
+// are part of FilmState.
+
+namespace clatter {
+
+/// A gas beside the run of a film, in step with it. Its scene has disks or spheres.
+class Companion {
+ public:
+  virtual ~Companion() = default;
+
+  /// Runs to a simulation time. Returns false at an interrupt. Throws PhysicalStop.
+  virtual bool run_until(double time) = 0;
+  /// The gas at its time.
+  virtual Snapshot snapshot() = 0;
+  /// The gas for plots, without a name. Only if the film has plots. Valid until the next call.
+  virtual PlottedGas plotted() = 0;
+  /// Lists its clicks from now on.
+  virtual void listen() = 0;
+  /// The clicks since the last call, after listen().
+  virtual std::vector<Click> take_clicks() = 0;
+  /// As preview_of().
+  virtual std::unique_ptr<SoundPreview> preview() const = 0;
+  /// As first_extents().
+  virtual RangeEnds first_extents(double last) const = 0;
+  /// As Simulation::state_hash().
+  virtual std::uint64_t state_hash() const = 0;
+  /// The run, its scene and its averages, for a checkpoint.
+  virtual std::string save() = 0;
+};
+
+/// Starts the run of a scene with the averages of a view and the plots of a film, or continues the
+/// result of save(); empty: none. `file` is the name of the checkpoint. Throws UserError if `saved`
+/// has another scene or seed.
+std::unique_ptr<Companion> companion_of(const ComparedScene& compared, const View& view,
+                                        const FilmPlots& plots, double exposure, int threads,
+                                        const std::string& saved, const std::string& file);
+
+}  // namespace clatter

@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/import/binary_frames.h"
+#include "app/results/h5md_reader.h"
+#include "app/results/isolated_hdf5.h"
+#include "engine/checkpoint/archive.h"
+#include "engine/error.h"
+#include "engine/text.h"
+
+namespace clatter {
+
+namespace {
+
+// The elements of a list at `places`; an empty list stays empty.
+template <class T>
+void choose(std::vector<T>& list, const std::vector<std::size_t>& places) {
+  if (list.empty()) return;
+  std::vector<T> chosen;
+  for (const std::size_t place : places) chosen.push_back(list[place]);
+  list = chosen;
+}
+
+// Sorts the particles by their identifiers, and removes places without a particle.
+void sort_by_id(ParticleFrame& frame, const std::vector<std::optional<double>>& ids,
+                const std::filesystem::path& path) {
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    if (ids[k]) places.push_back(k);
+  }
+  const auto id = [&](std::size_t place) { return *ids[place]; };
+  std::ranges::stable_sort(places, {}, id);
+  const auto twice = std::ranges::adjacent_find(places, {}, id);
+  if (twice != places.end()) {
+    throw UserError({path.string()}, "the id " + number_text(id(*twice)) + " occurs twice",
+                    "give each particle its own id");
+  }
+  for (const std::size_t place : places) frame.ids.push_back(id(place));
+  choose(frame.positions, places);
+  choose(frame.velocities, places);
+  choose(frame.spins, places);
+  choose(frame.images, places);
+  choose(frame.masses, places);
+  choose(frame.diameters, places);
+}
+
+void read_box(ParticleFrame& frame, const H5mdReader& reader, std::size_t place) {
+  reader.require_dimension();
+  const std::vector<double> lengths = reader.box(place);
+  const std::vector<bool> periodic = reader.periodic();
+  frame.box.emplace();
+  for (std::size_t axis = 0; axis < lengths.size(); ++axis) {
+    frame.box->lengths[axis] = lengths[axis];
+    frame.box->periodic[axis] = periodic[axis];
+  }
+}
+
+ParticleFrame h5md_frame(const std::filesystem::path& path, const FrameChoice& choice) {
+  const H5mdReader reader(path, choice.group);
+  const std::size_t place = choice.frame.value_or(std::max<std::size_t>(reader.frames(), 1) - 1);
+  if (place >= reader.frames()) refuse_frame(path, reader.frames());
+  const auto vectors = [&](const std::string& name) {
+    return vectors_of(reader.vectors(name, place), reader.components());
+  };
+  ParticleFrame frame;
+  frame.positions = vectors("position");
+  frame.number = step_of(reader.step(place));
+  frame.time = reader.time(place);
+  if (choice.needs_velocities || reader.is_sampled("velocity", place)) {
+    frame.velocities = vectors("velocity");
+  }
+  if (reader.has("image")) frame.images = vectors("image");
+  if (reader.components() == 3 && reader.has("angular_velocity")) {
+    frame.spins = vectors("angular_velocity");
+  }
+  if (reader.has("mass")) frame.masses = reader.numbers("mass", place);
+  if (reader.has("diameter")) frame.diameters = reader.numbers("diameter", place);
+  for (const std::string name : {"position", "mass", "diameter"}) {
+    if (!reader.has(name) || !reader.is_single(name)) continue;
+    frame.rounding = 2.0 * std::numeric_limits<float>::epsilon();
+  }
+  read_box(frame, reader, place);
+  if (reader.has("id")) sort_by_id(frame, reader.ids(place), path);
+  if (reader.components() == 2 && choice.dimension == 3) {
+    throw UserError({path.string()}, "the positions have two components", "omit --dimensions");
+  }
+  frame.dimension = reader.components() == 2 ? 2 : dimension_of(frame, choice, path);
+  move_corner(frame, {});
+  return frame;
+}
+
+}  // namespace
+
+ParticleFrame read_h5md_frame(const std::filesystem::path& path, const FrameChoice& choice) {
+  const std::string bytes = read_hdf5_apart(path, [&] {
+    ParticleFrame frame = h5md_frame(path, choice);
+    ArchiveWriter writer;
+    writer(frame);
+    return writer.written();
+  });
+  ParticleFrame frame;
+  ArchiveReader reader(bytes, path.string());
+  reader(frame);
+  reader.finish();
+  return frame;
+}
+
+}  // namespace clatter

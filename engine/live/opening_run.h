@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "engine/initial/start_state.h"
+#include "engine/live/watched_run.h"
+
+namespace clatter {
+
+/// A run that is being started, in parts.
+class OpeningRun {
+ public:
+  /// Begins the run of a scene and a seed. Its record of past states has at most `record_bytes`.
+  /// Throws UserError if the machine has not enough memory.
+  OpeningRun(const Scene& scene, std::uint64_t seed, std::size_t record_bytes = kRecordBytes);
+
+  /// Continues until the run is complete. Returns false at a request to pause. The longest part
+  /// without a look at the request sorts all particles. Throws PhysicalStop if the state is
+  /// impossible.
+  bool advance(const StopRequest& pause);
+  /// Estimate of the completed part, 0..1.
+  double progress() const { return made_ ? 1.0 : maker_.progress(); }
+  /// The run. Requires that advance() has returned true.
+  std::unique_ptr<WatchedRun> take() { return std::move(run_); }
+
+ private:
+  Scene scene_;
+  std::uint64_t seed_;
+  std::size_t record_bytes_;
+  StartMaker maker_;
+  bool made_ = false;  // all particles have their places
+  std::optional<AnyState> start_;
+  std::unique_ptr<WatchedRun> run_;
+};
+
+}  // namespace clatter

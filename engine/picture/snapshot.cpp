@@ -1,0 +1,30 @@
+#include "engine/picture/snapshot.h"
+
+#include "engine/dynamics/simulation.h"
+
+namespace clatter {
+
+template <int D>
+Snapshot snapshot_of(const Simulation<D>& simulation) {
+  const State<D> state = simulation.state();
+  Snapshot snapshot;
+  snapshot.time = simulation.time();
+  snapshot.box = simulation.model().box;
+  snapshot.diameter = simulation.model().diameter;
+  for (int side = 0; side < 2 * D; ++side) {
+    snapshot.walls[side] = simulation.model().walls[side];
+    snapshot.wall_displacement[side] = simulation.wall(side).displacement;
+  }
+  snapshot.piston_travel = simulation.piston_travel();
+  snapshot.positions = as_columns(state.positions);
+  snapshot.velocities = as_columns(state.velocities);
+  if (simulation.model().spins) snapshot.spins = as_columns(state.spins);
+  snapshot.temperature = simulation.temperature();
+  snapshot.collisions = simulation.counts().pair_collisions;
+  return snapshot;
+}
+
+template Snapshot snapshot_of(const Simulation<2>&);
+template Snapshot snapshot_of(const Simulation<3>&);
+
+}  // namespace clatter
