@@ -122,6 +122,8 @@ const EmbeddedFile* Gallery::draw(Controls& controls, float width, float height,
       ImGui::InputTextWithHint("##search", "Search the gallery ( / )", search_.data(),
                                search_.size(), ImGuiInputTextFlags_EnterReturnsTrue);
   if (ImGui::IsItemEdited()) selected_ = 0;
+  // Enter ends the typing, and an unsuccessful search goes on.
+  if (entered && matches().empty()) ImGui::SetKeyboardFocusHere(-1);
   const bool typing = ImGui::IsItemActive() || ImGui::IsItemDeactivated();
   const bool enter = (std::exchange(enters_, false) && !typing) || entered;
   ImGui::SameLine();
@@ -129,7 +131,6 @@ const EmbeddedFile* Gallery::draw(Controls& controls, float width, float height,
   ImGui::Spacing();
   ImGui::BeginChild("scenes");
   const std::vector<const Entry*> found = matches();
-  searches_ = entered && found.empty();  // Enter ends the typing of a text
   if (found.empty()) {
     controls.note("gallery.none", "No scene matches \"" + std::string(search_.data()) + '"');
   }
