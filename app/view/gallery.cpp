@@ -122,7 +122,7 @@ const EmbeddedFile* Gallery::draw(Controls& controls, float width, float height,
       ImGui::InputTextWithHint("##search", "Search the gallery ( / )", search_.data(),
                                search_.size(), ImGuiInputTextFlags_EnterReturnsTrue);
   if (ImGui::IsItemEdited()) selected_ = 0;
-  // Enter ends the typing, and an unsuccessful search goes on.
+  // The field loses the focus at Enter. Without a match it gets the focus back.
   if (entered && matches().empty()) ImGui::SetKeyboardFocusHere(-1);
   const bool typing = ImGui::IsItemActive() || ImGui::IsItemDeactivated();
   const bool enter = (std::exchange(enters_, false) && !typing) || entered;

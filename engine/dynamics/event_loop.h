@@ -134,11 +134,12 @@ class EventLoop {
   void move_base();
   /// Plans the next events of all particles, in cells that fit the crowding.
   void plan_again();
-  /// Takes the changed laws of the model. If flights do not continue under them, flights that had
-  /// the acceleration `gravity` begin now, and plans are invalid until plan_again(). The watchdog
-  /// begins anew. `start_speed`: see RunState.
+  /// Takes the changed laws of the model, and restarts the watchdog. `start_speed` is that of
+  /// RunState. Unless `keeps_flights`, all flights are replaced by flights from now on; `gravity`
+  /// is the acceleration of the former ones. Plans are then invalid until plan_again().
   void set_laws(bool keeps_flights, const Vec<D>& gravity, double start_speed);
-  /// Deepest overlap of a particle with walls, as a share of the diameter; 0: none.
+  /// Deepest overlap of a particle with the walls of `boundary` now, as a share of the diameter; 0:
+  /// none.
   double deepest_overlap_with(const Boundary<D>& boundary) const;
   /// Reports every event from now on to an observer.
   void add_observer(Observer<D>& observer) { observers_.push_back(&observer); }

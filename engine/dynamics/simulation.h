@@ -45,9 +45,9 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// Continues from another saved run under other laws, as a new simulation would. Observers and
-  /// timers stay without a report, so their owners must begin them anew. prepare() must complete as
-  /// after construction in parts.
+  /// Continues from another saved run under other laws, as a new simulation would. prepare() must
+  /// complete, as after the constructors InParts. Observers and timers remain and have no report of
+  /// it. Their owners must replace those that depend on the former time or particles.
   void restart(const Model<D>& model, RunState<D> saved);
   /// Changes the laws now, in one pass over the particles. If flights do not continue, as under
   /// another gravity or motion of a wall, all events are planned again. A changed interval of kicks
@@ -218,6 +218,7 @@ class Simulation {
 template <int D>
 class Observation {
  public:
+  /// Adds the observer to the simulation.
   Observation(Simulation<D>& simulation, Observer<D>& observer)
       : simulation_(simulation), observer_(observer) {
     simulation.add_observer(observer);
@@ -235,6 +236,7 @@ class Observation {
 template <int D>
 class Timers {
  public:
+  /// No timers yet.
   explicit Timers(Simulation<D>& simulation) : simulation_(simulation) {}
   ~Timers() { simulation_.end_timers(this); }
   Timers(const Timers&) = delete;

@@ -54,7 +54,7 @@ class ViewObservers {
   void watch_spins(ViewObservers* before);
 
   Simulation<D>& simulation_;
-  bool spins_;  // whether particles had spins when the field began
+  bool spins_;  // whether particles have spins under the present laws
   View view_;
   double exposure_;
   std::optional<LiveField<D>> field_;

@@ -112,8 +112,8 @@ class ScheduledRun {
   void set_changes(std::vector<Change> changes);
   /// Continues from another state of the run. `scene` has the laws at that state and all changes,
   /// of which those after `changed_until` are to come. `rotations` are rotations() at that state.
-  /// Averages and flights of the view restart. Other observers are those of before; they must begin
-  /// anew. run_until() completes the preparation of the particles.
+  /// Averages and flights of the view restart. Owners of other observers must replace these, see
+  /// Simulation::restart. run_until() completes the preparation of the particles.
   void return_to(const Scene& scene, double changed_until, const RunState<D>& state,
                  const std::vector<Rotation<D>>& rotations);
   /// [N] rotations of the particles that the view shows; empty: none.

@@ -169,7 +169,7 @@ TEST_CASE("Laws: a change in place has the same bits with tiles, also for an obs
   CHECK(in_tiles > 8);
 }
 
-TEST_CASE("Laws: an impossible change is refused, and the run goes on as before") {
+TEST_CASE("Laws: a refused change does not change the run") {
   Model<2> model = four(kStatic, kSawtooth);
   Simulation<2> plain(model, clear_gas<2>(model, 20, 4)), refusing(model, plain.state());
   LawWitness witness(refusing);
