@@ -84,7 +84,6 @@ TEST_CASE("Window: arrows and Enter choose a scene of the gallery") {
   driver.tool("type --delay 100 zzz");
   driver.place("gallery.none", told);
   driver.key("Return");
-  driver.tool("sleep 0.3");  // the field takes letters from the next picture on
   for (int i = 0; i < 3; ++i) driver.key("BackSpace");
   driver.tool("type --delay 100 cradle");
   driver.key("Return");
