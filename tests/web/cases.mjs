@@ -28,9 +28,11 @@ export async function run_cases(chosen, before) {
   let failed = 0;
   for (const name of names) {
     const timer = limit(name);
+    const began = Date.now();
     try {
       await before();
-      console.log(`ok: ${name}${await cases.get(name)() || ''}`);
+      const skipped = await cases.get(name)() || '';
+      console.log(`ok: ${name}${skipped} (${((Date.now() - began) / 1000).toFixed(1)} s)`);
     } catch (error) {
       ++failed;
       console.log(`FAILED: ${name}\n  ${error.stack}`);
