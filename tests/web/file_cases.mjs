@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import {writeFileSync} from 'node:fs';
 import {drop, execute, has_ffmpeg, keep_downloads, program, program_hash, saved_file, scratch, test}
   from './cases.mjs';
-import {browser, drag, host, open, scroll_to, server, take_complaints} from './in_chromium.mjs';
+import {browser, drag, host, open, scroll_to, server, take_complaints, usual_size} from './in_chromium.mjs';
 
 // ---- embedded ----
 
@@ -40,7 +40,7 @@ test('an embedded gas without controls has the picture of the program', async ()
     await browser.idle();
     writeFileSync(scratch('page.png'), await browser.picture());
   } finally {
-    await browser.resize(1280, 720);
+    await usual_size();
   }
   execute(program, 'render', 'vibrated', '--from', '3', '--size', '960x720', '--out', scratch('program.png'), '--overwrite');
   const {stderr} = execute('ffmpeg', '-i', scratch('page.png'), '-i', scratch('program.png'),
@@ -68,7 +68,8 @@ test('a film shows the gas at the time of its pictures', async () => {
   const probe = execute('ffprobe', '-v', 'error', '-count_packets', '-select_streams', 'v', '-show_entries',
                         'stream=codec_name,width,height,nb_read_packets', '-of', 'json', scratch(name));
   const [stream] = JSON.parse(probe.stdout).streams;
-  const [, , width, height] = await browser.place_of('viewport');
+  const scale = await browser.value('devicePixelRatio');
+  const [width, height] = (await browser.place_of('viewport')).slice(2).map((length) => scale * length);
   assert.ok(Math.abs(stream.width - width) <= 2 && Math.abs(stream.height - height) <= 2);
   // An encoder that is late leaves out pictures.
   assert.ok(stream.nb_read_packets >= 5, `${stream.nb_read_packets} frames`);

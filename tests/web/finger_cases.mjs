@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import {test} from './cases.mjs';
-import {browser, open, take_complaints} from './in_chromium.mjs';
+import {browser, open, take_complaints, usual_size} from './in_chromium.mjs';
 
 // A page on a small telephone with two pixels of the device per pixel.
 async function as_telephone(run) {
@@ -12,7 +12,7 @@ async function as_telephone(run) {
     await run();
   } finally {
     await browser.send('Emulation.setTouchEmulationEnabled', {enabled: false});
-    await browser.resize(1280, 720);
+    await usual_size();
   }
 }
 

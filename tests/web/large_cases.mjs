@@ -57,18 +57,18 @@ test('a large gas goes to other times, and looks ahead, in slices', async () => 
 // than a card without.
 const watch_gallery = () => browser.value(`void (() => {
   const draw = Module._clatter_draw, gl = canvas.getContext('webgl2');
-  const wide = 60, pixels = new Uint32Array(wide * canvas.height);
+  const wide = 60 * devicePixelRatio, pixels = new Uint32Array(wide * canvas.height);
   const has_picture = ([, top]) => {
-    const row = canvas.height - Math.round(top) - 60;
-    return new Set(pixels.subarray(wide * row, wide * (row + 40))).size > 5;
+    const row = canvas.height - Math.round(top + wide);
+    return new Set(pixels.subarray(wide * row, wide * (row + 20))).size > 5;
   };
   window.counts = new Set();
   Module._clatter_draw = () => {
     const more = draw();
     const cards = log.filter((line) => /"name":"gallery\\.(?!close)/.test(line))
-        .map((line) => JSON.parse(line).place).filter((place) => place[1] < canvas.height - 120);
+        .map((line) => JSON.parse(line).place).filter((place) => place[1] < canvas.height - 2 * wide);
     if (cards.length) {
-      gl.readPixels(cards[0][0] + 20, 0, wide, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(pixels.buffer));
+      gl.readPixels(cards[0][0] + wide / 3, 0, wide, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(pixels.buffer));
     }
     counts.add(cards.filter(has_picture).length);
     return more;

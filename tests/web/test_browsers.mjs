@@ -157,8 +157,9 @@ test('a finger drags a slider, and draws one picture at a time', async () => {
 
 test('a finger picks the particle that it taps', async () => {
   await open('cradle', '&until=0');
-  const [x, y, width, height] = await tab.place_of('viewport');
-  await tab.tap_at(x + 0.5 * width, y + 0.5 * height);
+  const [x, , width] = await tab.place_of('viewport');
+  const [, row] = await tab.middle_of('wall.left');
+  await tab.tap_at(x + 0.5 * width, row);
   const {particle} = await tab.until_last('pick', 'true');
   assert.ok(particle !== null);
   assert.deepEqual(await tab.value('complaints'), []);
@@ -294,7 +295,7 @@ if (screen) process.env.DISPLAY = screen.name;
 server = await serve(folder, pages);
 tab = await type.start(found);
 try {
-  await tab.resize(1280, 720);
+  await tab.resize(1024, 600, 0.5);
   process.exitCode = await run_cases(chosen, () => {}) ? 0 : 1;
 } finally {
   await tab.stop();

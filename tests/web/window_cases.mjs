@@ -51,9 +51,10 @@ test('the gas steps forth and back, by frames and by collisions', async () => {
 
 test('a click picks the particle under it, and a click beside it none', async () => {
   await open('cradle', '&until=0');
-  const [x, y, width, height] = await browser.place_of('viewport');
-  const click = (right, up) => browser.click_at(x + right * width, y + (0.5 - up) * height);
-  // The row is in the middle of the box. Its disks have rising numbers from left to right.
+  const [x, , width, height] = await browser.place_of('viewport');
+  const [, row_at] = await browser.middle_of('wall.left');
+  const click = (right, up) => browser.click_at(x + right * width, row_at - up * height);
+  // The numbers of the disks in the row rise from left to right.
   const row = [];
   for (const right of [0.3, 0.4, 0.5, 0.6]) {
     await click(right, 0);
@@ -301,14 +302,14 @@ test('a hidden page does not run', async () => {
   await show('minimized');
   try {
     await browser.until(`document.visibilityState === 'hidden'`);
-    // Timers of the page go on.
+    // Timers of the page go on, at one per second.
     const [drawn, before, after] = await browser.value(`(async () => {
-      const round = () => new Promise((done) => setTimeout(done));
+      const round = () => new Promise((done) => setTimeout(done, 100));
       await round();
       let drawn = false;
       requestAnimationFrame(() => { drawn = true; });
       const before = log.length;
-      for (let rounds = 20; rounds > 0; --rounds) await round();
+      for (let rounds = 4; rounds > 0; --rounds) await round();
       return [drawn, before, log.length];
     })()`);
     assert.equal(drawn, false);
