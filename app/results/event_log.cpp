@@ -79,8 +79,8 @@ void append_record(std::vector<double>& records, const Model<D>& model, double t
   const auto& [first, second] = collision.particles;
   records.insert(records.end(), {time, 0.0, static_cast<double>(first.particle),
                                  static_cast<double>(second.particle)});
-  add(records, model.wrapped(first.position));
-  add(records, model.wrapped(second.position));
+  add(records, model.domain().wrapped(first.position));
+  add(records, model.domain().wrapped(second.position));
   add(records, first.velocity);
   add(records, Vec<D>(first.velocity + first.gain.momentum));
   add(records, second.velocity);
@@ -98,7 +98,7 @@ void append_record(std::vector<double>& records, const Model<D>& model, double t
   records.insert(records.end(),
                  {time, 1.0 + collision.side, static_cast<double>(change.particle), -1.0});
   const Vec<D> none = Vec<D>::Constant(kNone);
-  add(records, model.wrapped(change.position));
+  add(records, model.domain().wrapped(change.position));
   add(records, none);
   add(records, change.velocity);
   add(records, Vec<D>(change.velocity + change.gain.momentum));

@@ -243,7 +243,7 @@ template <bool kFalling>
     upper[axis] = flight.v[axis] >= 0.0;
     place[axis] = border(axis, cell[axis], upper[axis]);
   }
-  const Vec<D> way = place + image.cwiseProduct(model.box) - flight.r;
+  const Vec<D> way = place + model.domain().shift(image) - flight.r;
   // v + 0.0 turns -0 into +0: a particle at rest reaches its upper border at time infinity.
   const Vec<D> time = flight.time + way.array() / (flight.v.array() + 0.0);
   std::array<Exit, D> exits;

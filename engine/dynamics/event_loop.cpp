@@ -227,9 +227,9 @@ void EventLoop<D>::put_into_cell(std::size_t number) {
   if (!is_inside<D>(model_, r)) {
     throw PhysicalStop("particle " + std::to_string(i) + " is outside of the box at the start");
   }
-  const Vec<D> image = model_.image_index(r);
+  const Vec<D> image = model_.domain().image_at(r);
   gas_.particles.set_image(i, image);
-  plans_[i].cell = near_.place(i, r - image.cwiseProduct(model_.box));
+  plans_[i].cell = near_.place(i, r - model_.domain().shift(image));
 }
 
 template <int D>
@@ -418,7 +418,7 @@ double EventLoop<D>::deepest_overlap_of(std::size_t number) const {
     if (j <= i) return;
     const Vec<D> image = gas_.particles.image(j) - gas_.particles.image(i) - wrap;
     const Vec<D> x =
-        r - gas_.particles[j].flight.at(now_, model_.gravity) + image.cwiseProduct(model_.box);
+        r - gas_.particles[j].flight.at(now_, model_.gravity) + model_.domain().shift(image);
     deepest = std::max(deepest, 1.0 - x.norm() / model_.diameter);
   });
   return std::max(deepest, overlap_with_walls(boundary_, r));

@@ -43,7 +43,7 @@ void EventLoop<D>::retire(std::uint32_t number) {
 template <int D>
 void EventLoop<D>::note_stray(std::uint32_t number, const Vec<D>& position) {
   auto& stray = record_->strays[number];
-  const Vec<D> place = position - gas_.particles.image(number).cwiseProduct(model_.box) - lower_;
+  const Vec<D> place = position - model_.domain().shift(gas_.particles.image(number)) - lower_;
   float squared_way = 0.0f;
   for (int axis = 0; axis < D; ++axis) {
     const float way = record_->cut[axis] * (static_cast<float>(place[axis]) - stray.home[axis]);
@@ -106,10 +106,11 @@ void EventLoop<D>::renew_flight(std::uint32_t number, const Vec<D>& position,
   constexpr double kFarthest = 16384.0;  // diameters in the time since the base: rounded by 2e-12
   if (velocity.cwiseAbs().maxCoeff() * now_ > kFarthest * model_.diameter) until_base_moves_ = 0;
   if (record_) note_stray(number, position);
-  const Vec<D> boxes = model_.image_index(position);
+  const Domain<D> domain = model_.domain();
+  const Vec<D> image = domain.image_at(position);
   Flight<D>& flight = gas_.particles.flight(number);
-  flight = {position - boxes.cwiseProduct(model_.box), velocity, now_, flight.number + 1};
-  gas_.particles.move_image(number, -boxes);
+  flight = {position - domain.shift(image), velocity, now_, flight.number + 1};
+  gas_.particles.move_image(number, -image);
 }
 
 template <int D>
@@ -143,7 +144,7 @@ ParticleChange<D> EventLoop<D>::change_of(std::uint32_t number, const Vec<D>& po
 
 template <int D>
 void EventLoop<D>::collide(std::uint32_t first, std::uint32_t second, const IntVec<D>& image) {
-  const Vec<D> shift = image.template cast<double>().cwiseProduct(model_.box);
+  const Vec<D> shift = model_.domain().shift(image.template cast<double>());
   const auto [r_a, v_a] = motion_now(first);
   const auto [r_b, v_b] = motion_now(second);
   const Vec<D> x = (r_a - r_b) + shift;
@@ -242,11 +243,8 @@ void EventLoop<D>::kick() {
 // Whether the centre of a particle is in the region of a nudge.
 template <int D>
 static bool is_in_region(const Model<D>& model, const Nudge& nudge, const Vec<D>& position) {
-  Vec<D> way = model.wrapped(position) - Vec<D>(*nudge.centre);
-  for (int axis = 0; axis < D; ++axis) {
-    if (model.periodic(axis))
-      way[axis] -= model.box[axis] * std::round(way[axis] / model.box[axis]);
-  }
+  const Domain<D> domain = model.domain();
+  const Vec<D> way = domain.shortest(domain.wrapped(position) - Vec<D>(*nudge.centre));
   return way.squaredNorm() <= *nudge.radius * *nudge.radius;
 }
 

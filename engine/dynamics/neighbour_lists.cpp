@@ -51,7 +51,7 @@ static double even_radius(const Model<D>& model, double particles, double contac
 
 template <int D>
 NeighbourLists<D>::NeighbourLists(const Model<D>& model, double particles)
-    : box_(model.box),
+    : domain_(model.domain()),
       contact_(kContact * model.diameter),
       max_radius_(
           std::max(kMinRadius * model.diameter, even_radius<D>(model, particles, contact_))),
@@ -59,15 +59,16 @@ NeighbourLists<D>::NeighbourLists(const Model<D>& model, double particles)
   // Two particles may touch through neighbouring periodic images only, so regions are narrower than
   // the box.
   for (int axis = 0; axis < D; ++axis) {
-    if (model.periodic(axis)) max_radius_ = std::min(max_radius_, 0.5 * (box_[axis] - contact_));
+    if (!domain_.periodic[axis]) continue;
+    max_radius_ = std::min(max_radius_, 0.5 * (domain_.box[axis] - contact_));
   }
   std::uint32_t stride = 1;
   for (int axis = 0; axis < D; ++axis) {
-    const double cells = std::floor(box_[axis] / (contact_ + 2.0 * max_radius_));
+    const double cells = std::floor(domain_.box[axis] / (contact_ + 2.0 * max_radius_));
     counts_[axis] = static_cast<int>(std::max(1.0, cells));
-    widths_[axis] = box_[axis] / counts_[axis];
+    widths_[axis] = domain_.box[axis] / counts_[axis];
     const auto count = static_cast<std::uint32_t>(counts_[axis]);
-    const bool periodic = model.periodic(axis);
+    const bool periodic = domain_.periodic[axis];
     auto& steps = steps_[axis];
     for (std::uint32_t step = 0; step < count + 2; ++step) {
       steps.push_back({(periodic ? (step + count - 1) % count : step) * stride, 0});
@@ -345,16 +346,16 @@ Vec<D> NeighbourLists<D>::leave(const Model<D>& model, const Flight<D>& flight, 
   } else if (known_.size() < kShort) {
     region.radius = std::min(kGrow * region.radius, max_radius_);
   }
-  Vec<D> centre = flight.at(now, model.gravity) - image.cwiseProduct(box_);
+  Vec<D> centre = flight.at(now, model.gravity) - domain_.shift(image);
   const Vec<D> velocity = flight.velocity_at(now, model.gravity);
   const double speed = velocity.norm();
   if (speed > 0.0) centre += velocity * (kLead * region.radius / speed);
-  const Vec<D> boxes = model.image_index(centre);
-  region.centre = centre - boxes.cwiseProduct(box_);
+  const Vec<D> moved = domain_.image_at(centre);
+  region.centre = centre - domain_.shift(moved);
   find_neighbours(number);
   put_in_cell(number);
   mend_lists(number);
-  return boxes;
+  return moved;
 }
 
 template class NeighbourLists<2>;

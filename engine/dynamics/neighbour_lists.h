@@ -43,7 +43,7 @@ class NeighbourLists {
   double distance_from_end(std::uint32_t particle, int axis, bool upper) const {
     const Region& region = regions_[particle];
     const double centre = region.centre[axis];
-    return (upper ? box_[axis] - centre : centre) - region.radius;
+    return (upper ? domain_.box[axis] - centre : centre) - region.radius;
   }
   /// A time by which a particle needs a new region. Under gravity it may precede the exit. `image`
   /// is in whole box lengths, from the region's frame to the flight's frame.
@@ -119,7 +119,7 @@ class NeighbourLists {
   void fill(List& list);
   void mend_lists(std::uint32_t particle);
 
-  Vec<D> box_;
+  Domain<D> domain_;
   double contact_;     // distance of centres at contact, with a margin
   double max_radius_;  // of regions
   IntVec<D> counts_;
@@ -146,7 +146,7 @@ template <bool kFalling>
   const Region& region = regions_[number];
   const double since = now - flight.time;
   Vec<D> v = flight.v;
-  Vec<D> r = flight.r - image.cwiseProduct(box_);
+  Vec<D> r = flight.r - domain_.shift(image);
   double radius = region.radius;
   double latest = kNever;
   if constexpr (kFalling) {

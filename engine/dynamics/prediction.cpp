@@ -83,7 +83,7 @@ void Prediction<D>::offer_particle(std::uint32_t particle, const Candidates<D>& 
   const std::uint32_t partner = particle_of<D>(near.neighbours[i]);
   const Vec<D> image = image_of(particle, near, i);
   if (time == kTouching) {
-    const Vec<D> shift = image.cwiseProduct(model_.box);
+    const Vec<D> shift = model_.domain().shift(image);
     time = contact_time<D>(particles_[particle].flight, particles_[partner].flight, shift,
                            model_.diameter, model_.gravity);
   }

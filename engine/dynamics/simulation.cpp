@@ -554,14 +554,14 @@ RunState<D> Simulation<D>::save_without_particles() const {
 
 template <int D>
 std::vector<Vec<D>> Simulation<D>::positions() const {
+  const Domain<D> domain = model_.domain();
   std::vector<Vec<D>> positions;
   positions.reserve(particles().size());
   for (const Particle<D>& particle : particles()) {
-    Vec<D> r = particle.flight.at(base_time(), model_.gravity);
-    r -= model_.image_index(r).cwiseProduct(model_.box);
+    Vec<D> r = domain.wrapped(particle.flight.at(base_time(), model_.gravity));
     for (int axis = 0; axis < D; ++axis) {
       // A position a rounding error below 0 wraps to the far end of the box, which is position 0.
-      if (model_.periodic(axis) && r[axis] == model_.box[axis]) r[axis] = 0.0;
+      if (domain.periodic[axis] && r[axis] == domain.box[axis]) r[axis] = 0.0;
     }
     positions.push_back(r);
   }

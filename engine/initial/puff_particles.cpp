@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "engine/dynamics/cell_grid.h"
 #include "engine/dynamics/clock.h"
+#include "engine/dynamics/near_particles.h"
 #include "engine/error.h"
 #include "engine/laws/limits.h"
 #include "engine/laws/model.h"
@@ -19,12 +19,12 @@ namespace {
 template <int D>
 class FreeRoom {
  public:
-  FreeRoom(const Model<D>& model, const Scene& laws, const RunState<D>& state, double count)
-      : model_(model), grid_(model, count), low_(laws.clear_corner()) {
+  FreeRoom(const Model<D>& model, const Scene& laws, const RunState<D>& state, std::size_t count)
+      : model_(model), near_(model, model.diameter, count), low_(laws.clear_corner()) {
     high_ = low_ + Vec<D>(laws.clear_box());
     if (state.piston) high_[0] -= state.piston->travel(Clock(state.base).absolute(state.now));
     for (const Flight<D>& flight : state.flights) {
-      insert(model.wrapped(flight.at(state.now, state.gravity)));
+      near_.add(model.domain().wrapped(flight.at(state.now, state.gravity)));
     }
   }
 
@@ -36,25 +36,15 @@ class FreeRoom {
       if (!(point[axis] >= low_[axis] + radius && point[axis] <= high_[axis] - radius))
         return false;
     }
-    bool overlaps = false;
-    grid_.visit(grid_.cell_at(point), [&](std::uint32_t other, const Vec<D>& wrap) {
-      const Vec<D> way = centres_[other] - point + wrap.cwiseProduct(model_.box);
-      overlaps = overlaps || way.norm() < model_.diameter;
-    });
-    if (!overlaps) insert(point);
-    return !overlaps;
+    if (near_.any_within(point, model_.diameter)) return false;
+    near_.add(point);
+    return true;
   }
 
  private:
-  void insert(const Vec<D>& point) {
-    grid_.insert(static_cast<std::uint32_t>(centres_.size()), grid_.cell_at(point));
-    centres_.push_back(point);
-  }
-
   const Model<D>& model_;
-  CellGrid<D> grid_;
+  NearParticles<D> near_;
   Vec<D> low_, high_;  // of the room for surfaces, along axes with walls
-  std::vector<Vec<D>> centres_;
 };
 
 // A point in a ball around the origin, with equal probability everywhere.
@@ -75,13 +65,13 @@ std::vector<PuffParticle<D>> puff_particles(const RunState<D>& state, const Puff
   constexpr int kTries = 10'000;  // of a particle in succession
   const Model<D> model = model_of<D>(laws, seed);
   const std::size_t before = state.flights.size();
-  FreeRoom<D> room(model, laws, state, static_cast<double>(before) + puff.count);
+  FreeRoom<D> room(model, laws, state, before + static_cast<std::size_t>(puff.count));
   Random random(seed, Stream::Puff, static_cast<std::uint32_t>(state.counts.puffs), 0);
   const Vec<D> centre = puff.centre;
   const Vec<D> mean = puff.velocity ? Vec<D>(*puff.velocity) : Vec<D>(Vec<D>::Zero());
   std::vector<PuffParticle<D>> particles;
   for (int tries = 0; tries < kTries && static_cast<int>(particles.size()) < puff.count; ++tries) {
-    const Vec<D> point = model.wrapped(centre + point_in_ball<D>(puff.radius, random));
+    const Vec<D> point = model.domain().wrapped(centre + point_in_ball<D>(puff.radius, random));
     if (!room.insert_if_free(point)) continue;
     tries = 0;
     Vec<D> velocity = mean;

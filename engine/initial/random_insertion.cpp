@@ -7,7 +7,7 @@
 #include <deque>
 #include <utility>
 
-#include "engine/dynamics/cell_grid.h"
+#include "engine/dynamics/near_particles.h"
 
 namespace clatter {
 
@@ -209,14 +209,11 @@ template <int D>
 class SparseInsertion : public RandomInsertion<D>::Work {
  public:
   SparseInsertion(const Room<D>& room, std::size_t count)
-      : model_(empty(room)), grid_(model_, static_cast<double>(count)) {
-    placed_.reserve(count);
-  }
+      : model_(empty(room)), near_(model_, room.diameter, count) {}
 
   bool place(std::size_t count, Random& random, const StopRequest& pause) override {
-    placed_.reserve(count);
-    while (placed_.size() < count) {
-      if (placed_.size() % kStepsPerQuestion == 0 && pause.made()) return false;
+    while (placed().size() < count) {
+      if (placed().size() % kStepsPerQuestion == 0 && pause.made()) return false;
       Vec<D> point;
       for (int axis = 0; axis < D; ++axis) {
         point[axis] = low(axis) + random.uniform() * (model_.box[axis] - 2.0 * low(axis));
@@ -233,7 +230,7 @@ class SparseInsertion : public RandomInsertion<D>::Work {
     return place_at(point);
   }
 
-  std::vector<Vec<D>>& placed() override { return placed_; }
+  std::vector<Vec<D>>& placed() override { return near_.positions(); }
 
  private:
   static Model<D> empty(const Room<D>& room) {
@@ -249,20 +246,13 @@ class SparseInsertion : public RandomInsertion<D>::Work {
   double low(int axis) const { return model_.periodic(axis) ? 0.0 : model_.wall_plane(axis, 0); }
 
   bool place_at(const Vec<D>& point) {
-    bool overlaps = false;
-    grid_.visit(grid_.cell_at(point), [&](std::uint32_t other, const Vec<D>& wrap) {
-      const Vec<D> x = placed_[other] - point + wrap.cwiseProduct(model_.box);
-      overlaps = overlaps || x.norm() < model_.diameter;
-    });
-    if (overlaps) return false;
-    grid_.insert(static_cast<std::uint32_t>(placed_.size()), grid_.cell_at(point));
-    placed_.push_back(point);
+    if (near_.any_within(point, model_.diameter)) return false;
+    near_.add(point);
     return true;
   }
 
   Model<D> model_;
-  CellGrid<D> grid_;
-  std::vector<Vec<D>> placed_;
+  NearParticles<D> near_;
 };
 
 template <int D>

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/dimension.h"
+#include "engine/dynamics/near_particles.h"
 #include "engine/dynamics/simulation.h"
 #include "engine/initial/gaussian_velocities.h"
 #include "engine/initial/random_insertion.h"
@@ -62,27 +63,20 @@ struct BondOrders {
   double triangular = 0.0;  // m = 6
 };
 static BondOrders bond_orders(const Model<2>& model, const std::vector<Vec2>& positions) {
-  constexpr double kReach = 1.5;
-  Model<2> reach = model;
-  reach.diameter = kReach * model.diameter;
-  CellGrid<2> grid(reach, static_cast<double>(positions.size()));
-  for (std::uint32_t i = 0; i < positions.size(); ++i) {
-    grid.insert(i, grid.cell_at(positions[i]));
-  }
+  const double reach = 1.5 * model.diameter;
+  NearParticles<2> near(model, reach, positions.size());
   std::complex<double> fourth = 0.0, sixth = 0.0;  // sums of these powers of exp(i theta)
   double bonds = 0.0;
-  for (std::uint32_t i = 0; i < positions.size(); ++i) {
-    const Vec2& r = positions[i];
-    grid.visit(grid.cell_at(r), [&](std::uint32_t j, const Vec2& wrap) {
-      const Vec2 x = positions[j] - r + wrap.cwiseProduct(model.box);
-      // Both directions of a pair have the same even powers.
-      if (j <= i || x.norm() > reach.diameter) return;
+  for (const Vec2& r : positions) {
+    near.visit(r, [&](std::uint32_t, const Vec2& x) {
+      if (x.norm() > reach) return;
       const std::complex<double> unit(x.x() / x.norm(), x.y() / x.norm());
       const std::complex<double> square = unit * unit;
       fourth += square * square;
       sixth += square * square * square;
       bonds += 1.0;
     });
+    near.add(r);
   }
   if (bonds == 0.0) return {};
   return {std::abs(fourth) / bonds, std::abs(sixth) / bonds};
@@ -98,14 +92,11 @@ static bool is_fluid(const Simulation<2>& gas, const std::vector<Vec2>&) {
 }
 static bool is_fluid(const Simulation<3>& gas, const std::vector<Vec<3>>& sites) {
   const Model<3>& model = gas.model();
+  const Domain<3> domain = model.domain();
   double squares = 0.0;
   for (std::size_t i = 0; i < sites.size(); ++i) {
-    Vec<3> way = gas.particles()[i].flight.at(gas.base_time(), model.gravity) - sites[i];
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!model.periodic(axis)) continue;
-      way[axis] -= model.box[axis] * std::round(way[axis] / model.box[axis]);
-    }
-    squares += way.squaredNorm();
+    const Vec<3> now = gas.particles()[i].flight.at(gas.base_time(), model.gravity);
+    squares += domain.shortest(now - sites[i]).squaredNorm();
   }
   return squares > static_cast<double>(sites.size()) * model.diameter * model.diameter;
 }

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 
+#include "engine/laws/domain.h"
 #include "engine/laws/wall.h"
 #include "engine/vec.h"
 
@@ -38,20 +38,11 @@ struct Model {
   bool has_gravity() const { return (gravity.array() != 0.0).any(); }
   /// Whether the box is periodic along an axis.
   bool periodic(int axis) const { return !walls[2 * axis]; }
-  /// Periodic image of a position: whole box lengths from the box along periodic axes; 0 along
-  /// others.
-  Vec<D> image_index(const Vec<D>& position) const {
-    Vec<D> boxes = Vec<D>::Zero();
-    for (int axis = 0; axis < D; ++axis) {
-      const bool inside = position[axis] >= 0.0 && position[axis] < box[axis];
-      if (inside || !periodic(axis)) continue;
-      boxes[axis] = std::floor(position[axis] / box[axis]);
-    }
-    return boxes;
-  }
-  /// The position in the box: whole box lengths are subtracted along periodic axes.
-  Vec<D> wrapped(const Vec<D>& position) const {
-    return position - image_index(position).cwiseProduct(box);
+  /// The box and its periodic images.
+  Domain<D> domain() const {
+    Domain<D> domain{.box = box};
+    for (int axis = 0; axis < D; ++axis) domain.periodic[axis] = periodic(axis);
+    return domain;
   }
   /// Coordinate of the centre of a particle that touches a wall at its rest position. `end` is 0
   /// for the near wall of the axis and 1 for the far wall.

@@ -30,7 +30,7 @@ void ClickRecorder<D>::add(const Vec<D>& contact, const Vec<D>& momentum, double
   skipped_ = 0;
   const Model<D>& model = simulation_.model();
   const double square = momentum.squaredNorm();
-  const double place = model.wrapped(contact)[0] / model.box[0];
+  const double place = model.domain().wrapped(contact)[0] / model.box[0];
   clicks_.push_back({simulation_.time(), std::clamp(place, 0.0, 1.0), std::sqrt(square),
                      static_cast<double>(stride_) * square / (8.0 * reduced_mass)});
   if (clicks_.size() == most_) thin_out();

@@ -20,7 +20,7 @@ void PeriodicImages<D>::on_laws() {
 template <int D>
 void PeriodicImages<D>::move(const ParticleChange<D>& change) {
   of_flights_[change.particle] +=
-      simulation_.model().image_index(change.position).template cast<int>();
+      simulation_.model().domain().image_at(change.position).template cast<int>();
 }
 
 template <int D>
@@ -44,13 +44,12 @@ IntVec<D> PeriodicImages<D>::image_in_flight(std::size_t particle) const {
   const Model<D>& model = simulation_.model();
   const Vec<D> r =
       simulation_.particles()[particle].flight.at(simulation_.base_time(), model.gravity);
-  const Vec<D> boxes = model.image_index(r);
-  IntVec<D> image = boxes.template cast<int>();
+  const Domain<D> domain = model.domain();
+  IntVec<D> image = domain.image_at(r).template cast<int>();
+  const Vec<D> place = domain.wrapped(r);
   for (int axis = 0; axis < D; ++axis) {
     // state() wraps this position to 0.
-    if (model.periodic(axis) && r[axis] - boxes[axis] * model.box[axis] == model.box[axis]) {
-      ++image[axis];
-    }
+    if (domain.periodic[axis] && place[axis] == domain.box[axis]) ++image[axis];
   }
   return image;
 }

@@ -40,9 +40,10 @@ void MeanSquaredDisplacement<D>::sample() {
   if (simulation_.particles().empty()) return;
   const State<D> state = simulation_.state();
   const std::vector<IntVec<D>> images = images_->images();
+  const Domain<D> domain = simulation_.model().domain();
   std::vector<Vec<D>> unwrapped = state.positions;
   for (std::size_t i = 0; i < unwrapped.size(); ++i) {
-    unwrapped[i] += images[i].template cast<double>().cwiseProduct(simulation_.model().box);
+    unwrapped[i] += domain.shift(images[i].template cast<double>());
   }
   const double per_particle = 1.0 / static_cast<double>(unwrapped.size());
   history_.add(unwrapped, [&](std::size_t lag, const std::vector<Vec<D>>& earlier) {

@@ -82,9 +82,8 @@ void FlightRecorder<D>::add_piece(std::vector<FlightPiece>& pieces, const Ended&
   const double from = std::max(ended.flight.time, now - reach());
   if (!(from < ended.end)) return;
   const Vec<D> r = ended.flight.at(from, ended.gravity);
-  const Vec<D> boxes = simulation_.model().image_index(r);
   pieces.push_back({ended.particle, from - now, ended.end - now,
-                    r - boxes.cwiseProduct(simulation_.model().box),
+                    simulation_.model().domain().wrapped(r),
                     ended.flight.velocity_at(from, ended.gravity), ended.gravity});
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/dimension.h"
+#include "engine/dynamics/near_particles.h"
 #include "engine/error.h"
 #include "engine/scene/csv_line.h"
 #include "engine/scene/limits.h"
@@ -212,89 +213,15 @@ void Reader<D>::refuse_pair(std::size_t a, std::size_t b, double distance) const
                   "move them apart, or remove one");
 }
 
-/// Particles sorted by cells slightly wider than a diameter. Particles that overlap are in the same
-/// cell or in neighbouring cells. Memory grows with the particles, not with the box.
-template <int D>
-class Neighbours {
- public:
-  Neighbours(const Scene& scene, const std::vector<Vec<D>>& centres) : scene_(scene) {
-    for (int axis = 0; axis < D; ++axis) {
-      counts_[axis] = std::max<std::int64_t>(1, static_cast<std::int64_t>(scene.box[axis] / 1.01));
-    }
-    sorted_.reserve(centres.size());
-    for (std::size_t i = 0; i < centres.size(); ++i) {
-      sorted_.emplace_back(number(cell_at(centres[i])), static_cast<std::uint32_t>(i));
-    }
-    std::ranges::sort(sorted_);
-  }
-
-  /// Calls visit(other) for the particles near a centre, possibly more than once.
-  template <class Visit>
-  void visit(const Vec<D>& centre, const Visit& visit) const {
-    const Position own = cell_at(centre);
-    Position step;
-    step.fill(-1);
-    while (step[D - 1] <= 1) {
-      Position at;
-      for (int axis = 0; axis < D; ++axis) at[axis] = own[axis] + step[axis];
-      if (const auto cell = wrapped(at)) visit_cell(number(*cell), visit);
-      for (int axis = 0; ++step[axis] > 1 && axis < D - 1; ++axis) step[axis] = -1;
-    }
-  }
-
- private:
-  using Position = std::array<std::int64_t, D>;
-
-  Position cell_at(const Vec<D>& centre) const {
-    Position cell;
-    for (int axis = 0; axis < D; ++axis) {
-      const double share = centre[axis] / scene_.box[axis];
-      cell[axis] = std::clamp<std::int64_t>(static_cast<std::int64_t>(share * counts_[axis]), 0,
-                                            counts_[axis] - 1);
-    }
-    return cell;
-  }
-
-  std::optional<Position> wrapped(Position cell) const {
-    for (int axis = 0; axis < D; ++axis) {
-      if (cell[axis] >= 0 && cell[axis] < counts_[axis]) continue;
-      if (!scene_.periodic(axis)) return std::nullopt;
-      cell[axis] = (cell[axis] + counts_[axis]) % counts_[axis];
-    }
-    return cell;
-  }
-
-  std::int64_t number(const Position& cell) const {
-    std::int64_t number = 0;
-    for (int axis = D - 1; axis >= 0; --axis) number = number * counts_[axis] + cell[axis];
-    return number;
-  }
-
-  template <class Visit>
-  void visit_cell(std::int64_t cell, const Visit& visit) const {
-    auto entry = std::ranges::lower_bound(sorted_, std::pair{cell, std::uint32_t{0}});
-    for (; entry != sorted_.end() && entry->first == cell; ++entry) visit(entry->second);
-  }
-
-  const Scene& scene_;
-  Position counts_;                                             // of cells along each axis
-  std::vector<std::pair<std::int64_t, std::uint32_t>> sorted_;  // [N] number of the cell, particle
-};
-
 template <int D>
 void Reader<D>::refuse_overlaps(const std::vector<Vec<D>>& centres) const {
-  const Neighbours<D> neighbours(scene_, centres);
+  NearParticles<D> near(model_of<D>(scene_, 0), 1.0, centres.size());
   for (std::uint32_t i = 0; i < centres.size(); ++i) {
-    neighbours.visit(centres[i], [&](std::uint32_t j) {
-      if (j >= i) return;
-      Vec<D> x = centres[i] - centres[j];
-      for (int axis = 0; axis < D; ++axis) {
-        if (!scene_.periodic(axis)) continue;
-        x[axis] -= scene_.box[axis] * std::round(x[axis] / scene_.box[axis]);
-      }
-      const double distance = x.norm();
+    near.visit(centres[i], [&](std::uint32_t j, const Vec<D>& way) {
+      const double distance = way.norm();
       if (distance < 1.0 - kStartRounding) refuse_pair(i, j, distance);
     });
+    near.add(centres[i]);
   }
 }
 

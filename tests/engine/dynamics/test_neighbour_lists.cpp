@@ -153,7 +153,7 @@ double radius_of(const Model<3>& model, double particles) {
 }
 
 Vec<3> wrapped(const Model<3>& model, const Vec<3>& r) {
-  return r - model.image_index(r).cwiseProduct(model.box);
+  return model.domain().wrapped(r);
 }
 
 bool lists_it(const NeighbourLists<3>& lists, std::uint32_t particle, std::uint32_t neighbour) {

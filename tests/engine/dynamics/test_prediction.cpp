@@ -50,7 +50,7 @@ struct Planned {
     near.emplace(model, static_cast<double>(particles.size()));
     for (std::uint32_t i = 0; i < particles.size(); ++i) {
       const Vec2 r = particles[i].flight.at(now, model.gravity);
-      const Vec2 image = model.image_index(r);
+      const Vec2 image = model.domain().image_at(r);
       particles.set_image(i, image);
       plans[i].cell = near->place(i, r - image.cwiseProduct(model.box));
     }
