@@ -258,7 +258,12 @@ const with_vectors = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0
 if (typeof WebAssembly !== 'object' || !WebAssembly.validate(with_vectors)) {
   do_not_start('This browser has no vectors of WebAssembly. Browsers of 2023 and later have.');
 } else if (program) {
-  Module.wasmBinary = Uint8Array.from(atob(program.textContent), (sign) => sign.charCodeAt(0));
+  // Emscripten 6 no longer takes the bytes as Module.wasmBinary.
+  const bytes = Uint8Array.from(atob(program.textContent), (sign) => sign.charCodeAt(0));
+  Module.instantiateWasm = (imports, done) => {
+    WebAssembly.instantiate(bytes, imports).then(({instance, module}) => done(instance, module));
+    return {};
+  };
 } else if (location.protocol === 'file:') {
   do_not_start('Browsers load the parts of this page only from a web server. The page in one file, which ' +
       './run web --single makes, needs none.');
