@@ -1,7 +1,6 @@
 #include "python/gas.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -13,13 +12,13 @@
 #include "app/measure/measure_run.h"
 #include "app/results/result_json.h"
 #include "app/runs/run.h"
-#include "app/system/process_usage.h"
 #include "engine/checkpoint/archive.h"
 #include "engine/checkpoint/checkpoint.h"
 #include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/measure/measurement.h"
 #include "engine/scene/scene_file.h"
+#include "engine/system/usage.h"
 #include "engine/text.h"
 #include "render/camera_path.h"
 #include "render/context/context.h"
@@ -254,8 +253,8 @@ Size size_of(int width, const Scene& scene) {
 // The first drawing starts threads of OpenGL, which a forked process lacks: it would wait for them
 // without end.
 void require_own_threads() {
-  static const pid_t first = getpid();
-  if (getpid() == first) return;
+  static const int first = process_number();
+  if (process_number() == first) return;
   throw RunError(
       "this process was forked after a drawing, and lacks the threads of OpenGL; draw in processes "
       "of multiprocessing.get_context(\"spawn\")");

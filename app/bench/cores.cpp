@@ -13,11 +13,11 @@
 #include "app/bench/plot_file.h"
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
-#include "app/system/process_usage.h"
 #include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/run/scheduled_run.h"
 #include "engine/system/allocation.h"
+#include "engine/system/usage.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {

@@ -12,13 +12,13 @@
 #include "app/bench/plot_file.h"
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
-#include "app/system/process_usage.h"
 #include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/physics/lattice.h"
 #include "engine/physics/theory.h"
 #include "engine/run/scheduled_run.h"
 #include "engine/system/platform.h"
+#include "engine/system/usage.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {

@@ -1,7 +1,6 @@
 #include "app/bench/features.h"
 
 #include <fmt/printf.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +14,6 @@
 
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
-#include "app/system/process_usage.h"
 #include "engine/checkpoint/checkpoint.h"
 #include "engine/live/triple_buffer.h"
 #include "engine/measure/balance.h"
@@ -26,6 +24,7 @@
 #include "engine/run/scheduled_run.h"
 #include "engine/scene/enum_names.h"
 #include "engine/scene/scene_file.h"
+#include "engine/system/usage.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {
@@ -112,8 +111,8 @@ class Trial {
   }
 
   void put_aside() {
-    const std::filesystem::path file =
-        std::filesystem::temp_directory_path() / ("clatter-bench-" + std::to_string(getpid()));
+    const std::filesystem::path file = std::filesystem::temp_directory_path() /
+                                       ("clatter-bench-" + std::to_string(process_number()));
     Checkpoint checkpoint{.program = "clatter " CLATTER_VERSION,
                           .command = "bench",
                           .scene = scene_to_toml(scene_),

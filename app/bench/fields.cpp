@@ -11,12 +11,12 @@
 
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
-#include "app/system/process_usage.h"
 #include "engine/measure/balance.h"
 #include "engine/measure/profile.h"
 #include "engine/run/scheduled_run.h"
 #include "engine/scene/field.h"
 #include "engine/scene/scene_file.h"
+#include "engine/system/usage.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/system/process_usage.h"
 #include "engine/picture/snapshot.h"
 #include "engine/run/scheduled_run.h"
+#include "engine/system/usage.h"
 #include "render/context/context.h"
 #include "render/gl/canvas.h"
 #include "render/layers/renderer.h"

@@ -1,8 +1,6 @@
 #include "app/bench/render.h"
 
 #include <fmt/printf.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
@@ -15,12 +13,12 @@
 #include "app/runs/run.h"
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
-#include "app/system/process_usage.h"
 #include "engine/dimension.h"
 #include "engine/physics/theory.h"
 #include "engine/picture/live_field.h"
 #include "engine/picture/snapshot.h"
 #include "engine/system/child_process.h"
+#include "engine/system/usage.h"
 #include "engine/system/write_file.h"
 #include "render/context/context.h"
 #include "render/contrast_maps.h"
@@ -57,16 +55,6 @@ constexpr double fraction_of(int dimension) {
   return dimension == 2 ? 0.5 : 0.1;
 }
 
-// CPU time of the child processes that have ended.
-double children_milliseconds() {
-  rusage usage{};
-  getrusage(RUSAGE_CHILDREN, &usage);
-  const auto milliseconds = [](const timeval& time) {
-    return 1e3 * static_cast<double>(time.tv_sec) + 1e-3 * static_cast<double>(time.tv_usec);
-  };
-  return milliseconds(usage.ru_utime) + milliseconds(usage.ru_stime);
-}
-
 // Adds the CPU time of a stage to `times`, up to the end of its drawing. Counts all threads,
 // because OpenGL may draw on several.
 template <class Work>
@@ -95,7 +83,7 @@ Scene scene_of(int count, int dimension) {
 
 std::filesystem::path temporary_file(const char* extension) {
   return std::filesystem::temp_directory_path() /
-         ("clatter-bench-" + std::to_string(getpid()) + extension);
+         ("clatter-bench-" + std::to_string(process_number()) + extension);
 }
 
 bool has_ffmpeg() {
@@ -108,7 +96,7 @@ bool has_ffmpeg() {
 
 // The CPU milliseconds of an ffmpeg process.
 double ffmpeg(const std::vector<std::string>& arguments, std::span<const Image> images = {}) {
-  const double before = children_milliseconds();
+  const double before = 1e3 * child_cpu_seconds();
   std::vector<std::string> command = {"ffmpeg", "-v", "error", "-nostdin", "-y", "-f", "rawvideo"};
   command.insert(command.end(), arguments.begin(), arguments.end());
   ChildProcess process(command);
@@ -117,7 +105,7 @@ double ffmpeg(const std::vector<std::string>& arguments, std::span<const Image> 
   for (const Image& image : images) queue.add([&] { process.write(image.rgba); });
   queue.finish();
   if (!process.wait()) throw RunError("ffmpeg failed: " + process.last_words());
-  return children_milliseconds() - before;
+  return 1e3 * child_cpu_seconds() - before;
 }
 
 // The CPU milliseconds of x264 per frame, with the preset "veryfast". The pictures have the pixel
@@ -142,14 +130,14 @@ double encode_veryfast(std::span<const Image> images) {
 // The CPU milliseconds of the encoder for one film.
 double encode(std::vector<Image> images) {
   const std::filesystem::path film = temporary_file(".mp4");
-  const double before = children_milliseconds();
+  const double before = 1e3 * child_cpu_seconds();
   SinkOptions options;
   options.size = images.front().size;
   Movie movie(film, options);
   for (Image& image : images) movie.add(std::move(image), {});
   movie.finish(Ending::Whole);
   std::filesystem::remove(film);
-  return children_milliseconds() - before;
+  return 1e3 * child_cpu_seconds() - before;
 }
 
 // The layers of the particles and of the heatmap.

@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "app/bench/time_stepped.h"
-#include "app/system/process_usage.h"
 #include "engine/measure/measurement.h"
 #include "engine/run/scheduled_run.h"
 #include "engine/system/platform.h"
+#include "engine/system/usage.h"
 
 namespace clatter {
 

@@ -11,8 +11,8 @@
 #include "app/bench/window.h"
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
-#include "app/system/process_usage.h"
 #include "engine/live/watched_run.h"
+#include "engine/system/usage.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {

@@ -12,7 +12,6 @@
 #include "app/results/trajectory_file.h"
 #include "app/runs/picture_scene.h"
 #include "app/system/exit_code.h"
-#include "app/system/interrupt.h"
 #include "app/system/missing_newline.h"
 #include "app/system/outputs.h"
 #include "engine/checkpoint/checkpoint.h"
@@ -22,6 +21,7 @@
 #include "engine/run/scheduled_run.h"
 #include "engine/scene/scene_file.h"
 #include "engine/scene/state_file.h"
+#include "engine/system/signals.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {

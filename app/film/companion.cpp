@@ -5,13 +5,13 @@
 
 #include "app/film/film_ranges.h"
 #include "app/plots/plot_recorder.h"
-#include "app/system/interrupt.h"
 #include "engine/checkpoint/archive.h"
 #include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/live/click_recorder.h"
 #include "engine/run/scheduled_run.h"
 #include "engine/scene/scene_file.h"
+#include "engine/system/signals.h"
 
 namespace clatter {
 

@@ -8,9 +8,9 @@
 
 #include "app/film/film_limits.h"
 #include "app/film/sound_preview.h"
-#include "app/system/interrupt.h"
 #include "engine/checkpoint/archive.h"
 #include "engine/error.h"
+#include "engine/system/signals.h"
 #include "render/output/cells.h"
 
 namespace clatter {

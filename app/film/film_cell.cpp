@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "app/system/interrupt.h"
+#include "engine/system/signals.h"
 #include "render/camera_path.h"
 
 namespace clatter {

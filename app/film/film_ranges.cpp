@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/system/interrupt.h"
 #include "engine/error.h"
 #include "engine/picture/moving_sum.h"
+#include "engine/system/signals.h"
 
 namespace clatter {
 

@@ -1,8 +1,8 @@
 #include "app/film/sound_preview.h"
 
-#include "app/system/interrupt.h"
 #include "engine/error.h"
 #include "engine/live/click_recorder.h"
+#include "engine/system/signals.h"
 
 namespace clatter {
 

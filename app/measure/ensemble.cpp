@@ -10,11 +10,11 @@
 #include "app/measure/feature_cost.h"
 #include "app/results/result_json.h"
 #include "app/runs/run.h"
-#include "app/system/interrupt.h"
 #include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/run/scheduled_run.h"
 #include "engine/system/allocation.h"
+#include "engine/system/signals.h"
 
 namespace clatter {
 

@@ -21,9 +21,7 @@
 #include "app/results/vtk_files.h"
 #include "app/runs/run.h"
 #include "app/system/exit_code.h"
-#include "app/system/interrupt.h"
 #include "app/system/outputs.h"
-#include "app/system/process_usage.h"
 #include "engine/checkpoint/checkpoint.h"
 #include "engine/dimension.h"
 #include "engine/error.h"
@@ -33,6 +31,8 @@
 #include "engine/scene/enum_names.h"
 #include "engine/scene/state_file.h"
 #include "engine/system/allocation.h"
+#include "engine/system/signals.h"
+#include "engine/system/usage.h"
 #include "engine/system/write_file.h"
 #include "engine/text.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/results/growing_file.h"
 #include "app/results/gsd_layout.h"
+#include "engine/system/growing_file.h"
 
 namespace clatter {
 

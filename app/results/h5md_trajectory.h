@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "app/results/growing_file.h"
 #include "app/results/trajectory_file.h"
+#include "engine/system/growing_file.h"
 
 namespace clatter {
 

@@ -1,7 +1,5 @@
 #include "app/results/hdf5_writer.h"
 
-#include <fcntl.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -91,18 +89,19 @@ void write_hdf5(const std::filesystem::path& path,
 
 // HDF5 itself crashes if a disk is full. Chunks and their index take little more space than the
 // numbers.
-static int reserve(const NewFile& made, std::uint64_t numbers) {
+static bool reserve(NewFile& made, std::uint64_t numbers) {
   constexpr std::uint64_t kHeads = std::uint64_t{1} << 20;
-  return posix_fallocate(made.file.get(), 0, static_cast<off_t>(numbers + numbers / 64 + kHeads));
+  return made.file.reserve(numbers + numbers / 64 + kHeads);
 }
 
 void write_large_hdf5(const std::filesystem::path& path, std::uint64_t numbers,
                       const std::function<void(const H5::H5File&)>& fill) {
   const std::filesystem::path target = target_of(path);
-  const NewFile made = new_file_beside(target);
+  NewFile made = new_file_beside(target);
   if (!made.file) throw RunError("cannot write " + path.string() + ": " + std::strerror(errno));
   std::error_code ignored;
-  if (const int error = reserve(made, numbers); error != 0) {
+  if (!reserve(made, numbers)) {
+    const int error = errno;
     std::filesystem::remove(made.path, ignored);
     throw RunError("cannot write " + path.string() + ": " + std::strerror(error));
   }

@@ -1,8 +1,8 @@
 #include "app/results/trajectory_file.h"
 
-#include "app/results/growing_file.h"
 #include "app/results/gsd_trajectory.h"
 #include "app/results/h5md_trajectory.h"
+#include "engine/system/growing_file.h"
 
 namespace clatter {
 

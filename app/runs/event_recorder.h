@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "app/results/event_log.h"
-#include "app/results/growing_file.h"
 #include "engine/dynamics/simulation.h"
+#include "engine/system/growing_file.h"
 
 namespace clatter {
 

@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "app/system/exit_code.h"
-#include "app/system/interrupt.h"
 #include "app/system/outputs.h"
 #include "engine/scene/scene_file.h"
 #include "engine/scene/schedule.h"
+#include "engine/system/signals.h"
 #include "engine/system/write_file.h"
 
 namespace clatter {

@@ -1,7 +1,6 @@
 #include "app/sweep/executor.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -11,8 +10,9 @@
 #include <list>
 
 #include "app/system/exit_code.h"
-#include "app/system/interrupt.h"
 #include "app/system/program_job.h"
+#include "engine/system/signals.h"
+#include "engine/system/terminal.h"
 
 namespace clatter {
 
@@ -49,7 +49,7 @@ class Executor {
       : folder_(folder),
         processes_(static_cast<std::size_t>(processes)),
         style_(style),
-        terminal_(style == ProgressStyle::Auto && isatty(STDERR_FILENO)) {
+        terminal_(style == ProgressStyle::Auto && error_is_terminal()) {
     SweepState state(folder);
     runs_ = std::move(state.runs);
     open_.assign(state.wanted.begin(), state.wanted.end());

@@ -8,8 +8,8 @@
 
 #include "app/measure/measure_run.h"
 #include "app/system/exit_code.h"
-#include "app/system/interrupt.h"
 #include "engine/error.h"
+#include "engine/system/signals.h"
 
 namespace clatter {
 

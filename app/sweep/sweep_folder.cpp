@@ -1,6 +1,5 @@
 #include "app/sweep/sweep_folder.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
@@ -310,26 +309,21 @@ void SweepFolder::forget_failure(int id) const {
 bool SweepFolder::lock(int id) {
   if (!locks_) {
     const auto path = folder_ / "runs/locks";
-    locks_ = FileDescriptor(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
+    locks_ = open_for_writing(path);
     if (!locks_) throw RunError("cannot write " + path.string() + ": " + std::strerror(errno));
   }
-  return set_lock(id, F_WRLCK);
+  // Such locks belong to the process, and closing the file in any way would end them: hence one
+  // descriptor for all.
+  if (locks_.lock_byte(static_cast<std::uint64_t>(id))) return true;
+  if (errno == EACCES || errno == EAGAIN) return false;
+  fail_to_lock();
 }
 
 void SweepFolder::unlock(int id) {
-  set_lock(id, F_UNLCK);
+  if (!locks_.unlock_byte(static_cast<std::uint64_t>(id))) fail_to_lock();
 }
 
-// Such locks work across the machines of a cluster. They belong to the process, and closing the
-// file in any way would end them: hence one descriptor for all.
-bool SweepFolder::set_lock(int id, short type) const {
-  struct flock lock {};
-  lock.l_type = type;
-  lock.l_whence = SEEK_SET;
-  lock.l_start = id;
-  lock.l_len = 1;
-  if (fcntl(locks_.get(), F_SETLK, &lock) == 0) return true;
-  if (errno == EACCES || errno == EAGAIN) return false;
+void SweepFolder::fail_to_lock() const {
   throw RunError("cannot lock " + (folder_ / "runs/locks").string() + ": " + std::strerror(errno) +
                  "; put the folder on a file system with locks");
 }

@@ -91,7 +91,7 @@ class SweepFolder {
   SweepFolder() = default;
   std::filesystem::path file(const char* folder, int id, const char* suffix) const;
   std::vector<int> ids_in(const char* folder, const char* suffix) const;
-  bool set_lock(int id, short type) const;
+  [[noreturn]] void fail_to_lock() const;
 
   std::filesystem::path folder_;
   FileDescriptor locks_;  // byte ID of this file is locked for run ID; negative: not open yet

@@ -1,7 +1,6 @@
 #include "app/system/batch_script.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>

@@ -1,7 +1,5 @@
 #include "app/system/outputs.h"
 
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -50,7 +48,7 @@ void make_folder(const std::filesystem::path& folder, const char* flag) {
   if (error)
     throw RunError("cannot make the folder " + folder.string() + ": " + error.message() +
                    "; choose another folder");
-  if (access(folder.c_str(), W_OK) != 0) throw_unwritable(folder);
+  if (!may_write_in(folder)) throw_unwritable(folder);
   remove_leftovers(folder);
 }
 

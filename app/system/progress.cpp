@@ -1,12 +1,13 @@
 #include "app/system/progress.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <utility>
+
+#include "engine/system/terminal.h"
 
 namespace clatter {
 
@@ -15,7 +16,7 @@ Progress::Progress(ProgressStyle style, std::string doing, double start, double 
       doing_(std::move(doing)),
       start_(start),
       end_(end),
-      terminal_(style == ProgressStyle::Auto && isatty(STDERR_FILENO)),
+      terminal_(style == ProgressStyle::Auto && error_is_terminal()),
       began_(Clock::now()),
       last_shown_(began_) {}
 

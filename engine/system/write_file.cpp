@@ -30,7 +30,7 @@ std::span<const std::byte> bytes_of(std::string_view text) {
 
 // Devices and pipes are written without sync, because they may not support it.
 bool write_into(const std::filesystem::path& path, std::string_view bytes) {
-  FileDescriptor file(open(path.c_str(), O_WRONLY | O_CLOEXEC));
+  FileDescriptor file = open_for_writing(path, false);
   return file && file.write_all(bytes_of(bytes)) && file.close();
 }
 
@@ -46,7 +46,7 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
 // A folder may be writable but not readable. It then cannot be synced, and this counts as success.
 bool sync_folder_of(const std::filesystem::path& path) {
   const std::filesystem::path folder = folder_of(path);
-  FileDescriptor file(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  FileDescriptor file = open_folder(folder);
   return file ? file.sync() : errno == EACCES;
 }
 
@@ -102,6 +102,10 @@ bool lock(const FileDescriptor& file) {
 }
 
 }  // namespace
+
+bool may_write_in(const std::filesystem::path& folder) {
+  return access(folder.c_str(), W_OK) == 0;
+}
 
 bool is_at(const FileDescriptor& file, const std::filesystem::path& path) {
   struct stat opened, named;

@@ -21,6 +21,9 @@ bool is_special(const std::filesystem::path& path);
 /// The path behind a chain of links. A link stays where a chain has no end.
 std::filesystem::path target_of(std::filesystem::path path);
 
+/// Whether this process may make files in a folder.
+bool may_write_in(const std::filesystem::path& folder);
+
 /// True if `path` still names the open file or folder.
 bool is_at(const FileDescriptor& file, const std::filesystem::path& path);
 

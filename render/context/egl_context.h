@@ -5,8 +5,8 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
+#include "engine/system/library.h"
 #include "render/context/context.h"
-#include "render/context/library.h"
 
 namespace clatter {
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <memory>
 
+#include "engine/system/library.h"
 #include "render/context/context.h"
-#include "render/context/library.h"
 
 struct osmesa_context;
 

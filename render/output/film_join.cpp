@@ -1,8 +1,6 @@
 #include "render/output/film_join.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -226,7 +224,7 @@ void join_parts(const std::filesystem::path& folder, long count, double fps,
     throw UserError({path.string()}, "is in the folder of the parts",
                     "write the film to another folder");
   }
-  const FileDescriptor opened(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const FileDescriptor opened = open_folder(folder);
   if (!opened) {
     throw UserError({folder.string()}, std::strerror(errno), "name the folder of the parts");
   }

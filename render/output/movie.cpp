@@ -1,8 +1,6 @@
 #include "render/output/movie.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -35,17 +33,18 @@ void require_no_pieces(const std::filesystem::path& folder) {
 }
 
 FileDescriptor open_new(const std::filesystem::path& path) {
-  unlink(path.c_str());
-  return FileDescriptor(open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+  return open_for_writing(path);
 }
 
 // Locks the open folder; false if another program holds the lock. The child of a killed film holds
 // it until the child begins its own program, hence the short wait.
-bool lock(const FileDescriptor& folder) {
+bool lock(FileDescriptor& folder) {
   constexpr int kAttempts = 100;
   constexpr std::chrono::milliseconds kPause{10};
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    if (flock(folder.get(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return true;
+    if (folder.lock()) return true;
     std::this_thread::sleep_for(kPause);
   }
   return false;
@@ -73,15 +72,15 @@ Movie::Movie(const std::filesystem::path& path, const SinkOptions& options,
   const bool begins = options.next == options.begin && !options.goes_on;
   if (begins && !options.overwrite) require_no_pieces(folder_);
   require_earlier_pieces();
-  open_folder();
+  hold_folder();
   if (begins) remove_own_files();
   if (options.sound) sound_.emplace(folder_ / kSound, *options.sound, options.sound_checksum);
   start_piece();
 }
 
 // Locks the folder, because two films of one name would overwrite each other's pieces. The previous
-// film may remove the folder between open() and flock(), hence the loop.
-void Movie::open_folder() {
+// film may remove the folder between open_folder() and lock(), hence the loop.
+void Movie::hold_folder() {
   std::error_code ignored;
   if (std::filesystem::is_symlink(folder_, ignored)) {
     throw UserError({folder_.string()}, "the folder for the pieces of the film is a link",
@@ -90,7 +89,7 @@ void Movie::open_folder() {
   do {
     std::error_code error;
     std::filesystem::create_directory(folder_, error);
-    held_ = FileDescriptor(open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    held_ = open_folder(folder_);
     if (error || !held_) {
       throw RunError("cannot write " + path_.string() + ": " +
                      (error ? error.message() : std::strerror(errno)));

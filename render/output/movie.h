@@ -47,7 +47,7 @@ class Movie final : public FrameSink {
 
  private:
   std::filesystem::path piece_path(long first) const;
-  void open_folder();
+  void hold_folder();
   bool is_own(const std::string& name) const;
   void remove_own_files();
   void require_earlier_pieces();

@@ -1,8 +1,5 @@
 #include "render/output/wav_file.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -54,37 +51,23 @@ std::string bytes_of(std::span<const StereoSample> samples) {
   return bytes;
 }
 
-bool write_at(const FileDescriptor& file, std::string_view bytes, long place) {
-  while (!bytes.empty()) {
-    const ssize_t written = pwrite(file.get(), bytes.data(), bytes.size(), place);
-    if (written < 0 && errno != EINTR) return false;
-    if (written <= 0) continue;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-    place += written;
-  }
-  return true;
-}
-
 }  // namespace
 
 WavFile::WavFile(std::filesystem::path path, long samples, std::uint32_t checksum)
-    : path_(std::move(path)),
-      file_(open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666)),
-      samples_(samples) {
+    : path_(std::move(path)), file_(open_for_update(path_)), samples_(samples) {
   if (!file_) fail();
   require_samples(checksum);
-  if (ftruncate(file_.get(), kHeader + samples_ * kBytes) != 0) fail();
+  if (!file_.resize(end())) fail();
   flush();
 }
 
 void WavFile::require_samples(std::uint32_t expected) {
   std::vector<char> bytes(1 << 20);
-  const long end = kHeader + samples_ * kBytes;
-  for (long place = kHeader; place < end;) {
-    const auto most = std::min(static_cast<long>(bytes.size()), end - place);
-    const ssize_t count = pread(file_.get(), bytes.data(), static_cast<std::size_t>(most), place);
-    if (count <= 0) break;
-    checksum_ = continued_checksum(checksum_, {bytes.data(), static_cast<std::size_t>(count)});
+  for (std::uint64_t place = kHeader; place < end();) {
+    const std::size_t most = std::min<std::uint64_t>(bytes.size(), end() - place);
+    const std::size_t count = file_.read_at(place, {bytes.data(), most});
+    if (count == 0) break;
+    checksum_ = continued_checksum(checksum_, {bytes.data(), count});
     place += count;
   }
   if (samples_ == 0 || checksum_ == expected) return;
@@ -92,15 +75,20 @@ void WavFile::require_samples(std::uint32_t expected) {
                      "draw the film again with --overwrite, without --resume");
 }
 
+// Place of the next sample in the file.
+std::uint64_t WavFile::end() const {
+  return static_cast<std::uint64_t>(kHeader + samples_ * kBytes);
+}
+
 void WavFile::append(std::span<const StereoSample> samples) {
   const std::string bytes = bytes_of(samples);
-  if (!write_at(file_, bytes, kHeader + samples_ * kBytes)) fail();
+  if (!file_.write_at(end(), bytes)) fail();
   samples_ += static_cast<long>(samples.size());
   checksum_ = continued_checksum(checksum_, bytes);
 }
 
 void WavFile::flush() {
-  if (!write_at(file_, header_of(samples_), 0) || !file_.sync()) fail();
+  if (!file_.write_at(0, header_of(samples_)) || !file_.sync()) fail();
   errno = ENOENT;
   if (!is_at(file_, path_)) fail();
 }

@@ -30,6 +30,7 @@ class WavFile {
 
  private:
   [[noreturn]] void fail() const;
+  std::uint64_t end() const;
   void require_samples(std::uint32_t expected);
 
   std::filesystem::path path_;

@@ -1,7 +1,8 @@
 #include "render/output/work_queue.h"
 
-#include <csignal>
 #include <utility>
+
+#include "engine/system/signals.h"
 
 namespace clatter {
 
@@ -48,12 +49,7 @@ void WorkQueue::close_and_join() {
 }
 
 void WorkQueue::work() {
-  // Signals are handled by other threads. A closed pipe then makes write() fail, instead of ending
-  // the program with SIGPIPE.
-  sigset_t all;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, nullptr);
-
+  block_signals();
   std::unique_lock lock(mutex_);
   for (;;) {
     job_or_end_.wait(lock, [this] { return !jobs_.empty() || closed_ || error_; });

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "app/results/event_log.h"
-#include "app/results/growing_file.h"
+#include "engine/system/growing_file.h"
 #include "engine/error.h"
 #include "engine/physics/random.h"
 #include "tests/support/shell.h"

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/error.h"
-#include "render/context/library.h"
+#include "engine/system/library.h"
 
 namespace clatter {
 

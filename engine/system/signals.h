@@ -9,6 +9,14 @@ namespace clatter {
 /// program, as under nohup, stays ignored.
 void catch_interrupts();
 
+/// Makes a file beyond the size limit of the system a write error. The system would end the
+/// program.
+void refuse_large_files();
+
+/// Blocks all signals in this thread, so that other threads handle them. A closed pipe then makes
+/// write() fail, instead of ending the program with SIGPIPE.
+void block_signals();
+
 /// Whether a signal has requested the end of the run. A StopRequest for all long work.
 bool interrupted();
 

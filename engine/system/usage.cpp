@@ -1,7 +1,8 @@
-#include "app/system/process_usage.h"
+#include "engine/system/usage.h"
 
 #include <sys/resource.h>
 #include <time.h>
+#include <unistd.h>
 
 namespace clatter {
 
@@ -11,6 +12,19 @@ double cpu_seconds() {
   timespec time{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+double child_cpu_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+int process_number() {
+  return getpid();
 }
 
 std::uint64_t peak_memory_bytes() {

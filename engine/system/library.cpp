@@ -1,4 +1,4 @@
-#include "render/context/library.h"
+#include "engine/system/library.h"
 
 #include <dlfcn.h>
 

@@ -1,4 +1,4 @@
-#include "app/system/standard_streams.h"
+#include "engine/system/terminal.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -12,6 +12,10 @@ void open_standard_streams() {
   for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
     if (fcntl(stream, F_GETFD) < 0 && errno == EBADF) open("/dev/null", O_RDONLY);
   }
+}
+
+bool error_is_terminal() {
+  return isatty(STDERR_FILENO);
 }
 
 }  // namespace clatter

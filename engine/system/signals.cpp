@@ -1,4 +1,4 @@
-#include "app/system/interrupt.h"
+#include "engine/system/signals.h"
 
 #include <time.h>
 
@@ -48,6 +48,16 @@ void catch_interrupts() {
   }
   // A long run whose reader has ended reports this as an error, and writes its checkpoint.
   std::signal(SIGPIPE, SIG_IGN);
+}
+
+void refuse_large_files() {
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void block_signals() {
+  sigset_t all;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, nullptr);
 }
 
 bool interrupted() {

@@ -7,4 +7,7 @@ namespace clatter {
 /// of the stream, and messages would go into this file.
 void open_standard_streams();
 
+/// Whether standard error is a terminal.
+bool error_is_terminal();
+
 }  // namespace clatter
