@@ -11,13 +11,10 @@
 #include "app/bench/run_result.h"
 #include "engine/measure/measurement.h"
 #include "engine/run/scheduled_run.h"
-#include "tests/support/messages.h"
-#include "tests/support/temporary_folder.h"
 
 namespace clatter {
 
 using nlohmann::json;
-using namespace testing;
 
 namespace {
 
@@ -46,78 +43,13 @@ PictureTable picture_table() {
 std::vector<std::string> words_of(const std::string& text, char gap) {
   std::vector<std::string> words;
   std::istringstream stream(text);
-  for (std::string word; std::getline(stream, word, gap);) {
-    if (gap != ' ' || !word.empty()) words.push_back(word);
-  }
+  for (std::string word; std::getline(stream, word, gap);) words.push_back(word);
   return words;
 }
 
 }  // namespace
 
-TEST_CASE("Accuracy tables: each number of a setting is under its own heading") {
-  const std::vector<std::string> lines = words_of(accuracy_text(gas_table()), '\n');
-  REQUIRE(lines.size() == 4);
-  CHECK(lines[1] == "Contact time t_c");
-  CHECK(words_of(lines[2], ' ') ==
-        std::vector<std::string>{"setting", "ms/t", "Mev/s",   "kB",  "T", "%",     "p",
-                                 "%",       "σ",    "%",       "q",   "%", "ζ",     "%",
-                                 "ρ(x)",    "%",    "overlap", "el.", "%", "error", "%"});
-  CHECK(words_of(lines[3], ' ') ==
-        std::vector<std::string>{"1e-3",  "*",     "12.5",  "2.25",   "34",    "+1.00", "±0.10",
-                                 "+2.00", "±0.20", "+3.00", "±0.30",  "+4.00", "±0.40", "+5.00",
-                                 "±0.50", "+6.00", "±0.60", "0.0005", "6.3",   "7.9"});
-  const std::vector<std::string> pictures = words_of(accuracy_text(picture_table()), '\n');
-  CHECK(pictures[1] == "Frame rate");
-  CHECK(words_of(pictures[2], ' ') ==
-        std::vector<std::string>{"setting", "ms", "SSIM", "centre", "px"});
-  CHECK(words_of(pictures[3], ' ') == std::vector<std::string>{"30", "45", "0.9876", "0.067"});
-}
-
-TEST_CASE("Accuracy tables: a CSV has each number in its own column") {
-  const std::vector<std::string> lines =
-      words_of(accuracy_csv({gas_table()}, {picture_table()}), '\n');
-  REQUIRE(lines.size() == 3);
-  const std::vector<std::string> names = words_of(lines[0], ','), gas = words_of(lines[1], ','),
-                                 picture = words_of(lines[2], ',');
-  REQUIRE(gas.size() == names.size());
-  REQUIRE(picture.size() == names.size());
-  std::map<std::string, std::array<std::string, 2>> columns;
-  for (std::size_t k = 0; k < names.size(); ++k) columns[names[k]] = {gas[k], picture[k]};
-  const std::map<std::string, std::array<std::string, 2>> expected = {
-      {"dial", {"contact_time", "frame_rate"}},
-      {"setting", {"1e-3", "30"}},
-      {"value", {"0.001", "30"}},
-      {"cpu_seconds_per_time", {"0.0125", "nan"}},
-      {"events_per_cpu_second", {"2.25e+06", "nan"}},
-      {"bytes", {"34000", "nan"}},
-      {"temperature_bias", {"0.01", "nan"}},
-      {"temperature_bias_error", {"0.001", "nan"}},
-      {"pressure_bias", {"0.02", "nan"}},
-      {"pressure_bias_error", {"0.002", "nan"}},
-      {"stress_bias", {"0.03", "nan"}},
-      {"stress_bias_error", {"0.003", "nan"}},
-      {"heat_flux_bias", {"0.04", "nan"}},
-      {"heat_flux_bias_error", {"0.004", "nan"}},
-      {"dissipation_bias", {"0.05", "nan"}},
-      {"dissipation_bias_error", {"0.005", "nan"}},
-      {"density_bias", {"0.06", "nan"}},
-      {"density_bias_error", {"0.006", "nan"}},
-      {"deepest_overlap", {"0.0005", "nan"}},
-      {"elasticised_share", {"0.063", "nan"}},
-      {"error", {"0.079", "nan"}},
-      {"cpu_seconds_per_picture", {"nan", "0.045"}},
-      {"ssim", {"nan", "0.9876"}},
-      {"centre_error_pixels", {"nan", "0.067"}},
-      {"dominated", {"1", "0"}}};
-  CHECK(columns.size() == expected.size());
-  for (const auto& [name, values] : expected) {
-    CAPTURE(name);
-    CHECK(columns[name][0] == values[0]);
-    CHECK(columns[name][1] == values[1]);
-  }
-}
-
-TEST_CASE("Accuracy tables: JSON has each number under its own key") {
+TEST_CASE("Accuracy tables: JSON and CSV have each number under its own name") {
   AccuracyBench bench;
   bench.scene = "barometer";
   bench.duration = 321.0;
@@ -158,24 +90,35 @@ TEST_CASE("Accuracy tables: JSON has each number under its own key") {
                                {"centre_error_pixels", 0.067},
                                {"dominated", false}}}}}}}};
   CHECK(found == expected);
-}
 
-TEST_CASE("Accuracy tables: a page gets them between its two lines, the starred ones escaped") {
-  const TemporaryFolder folder;
-  AccuracyBench bench;
-  bench.scene = "barometer";
-  bench.duration = 321.0;
-  bench.markdown = folder.write("page.md", "a\n<!-- tables -->\nold\n<!-- end of tables -->\nb\n");
-  const std::string page = with_accuracy_tables(bench, {gas_table()}, {picture_table()});
-  CHECK(
-      page.starts_with("a\n<!-- tables -->\nbarometer: 8 runs of each setting, seeds 1 to 8, of "
-                       "321 time units after 64.2; "));
-  CHECK(says(page, "\n**Contact time t_c**\n\n| setting | ms/t | Mev/s | kB | T % | p % | "));
-  CHECK(says(page, "\n| 1e-3 \\* | 12.5 | 2.25 | 34 | +1.00 ±0.10 | "));
-  CHECK(says(page,
-             "\n**Frame rate**\n\n| setting | ms | SSIM | centre px |\n|---|---:|---:|---:|\n"
-             "| 30 | 45 | 0.9876 | 0.067 |\n"));
-  CHECK(page.ends_with("\n<!-- end of tables -->\nb\n"));
+  const std::vector<std::string> lines =
+      words_of(accuracy_csv({gas_table()}, {picture_table()}), '\n');
+  REQUIRE(lines.size() == 3);
+  const std::vector<std::string> names = words_of(lines[0], ',');
+  for (const std::size_t dial : {0, 1}) {
+    std::map<std::string, std::string> row;
+    const std::vector<std::string> cells = words_of(lines[dial + 1], ',');
+    REQUIRE(cells.size() == names.size());
+    for (std::size_t k = 0; k < names.size(); ++k) row[names[k]] = cells[k];
+    CHECK(row["dial"] == expected["dials"][dial]["dial"]);
+    json columns = expected["dials"][dial]["settings"][0];
+    CHECK(row["setting"] == columns["setting"]);
+    CHECK(row["dominated"] == (columns["dominated"] ? "1" : "0"));
+    const json biases = columns.value("bias", json::object());
+    for (const auto& [quantity, bias] : biases.items()) {
+      columns[quantity + "_bias"] = bias["mean"];
+      columns[quantity + "_bias_error"] = bias["standard_error"];
+    }
+    for (const char* key : {"dial", "setting", "dominated"}) row.erase(key);
+    for (const char* key : {"setting", "dominated", "bias"}) columns.erase(key);
+    for (const auto& [name, cell] : row) {
+      CAPTURE(name);
+      CHECK((cell == "nan") == !columns.contains(name));
+      if (cell != "nan") CHECK(std::stod(cell) == doctest::Approx(columns[name].get<double>()));
+      columns.erase(name);
+    }
+    CHECK(columns.empty());
+  }
 }
 
 // Along y, between two different walls.
@@ -296,18 +239,6 @@ TEST_CASE("Accuracy tables: the limit of settings is relative to the reference")
   }
   CHECK(std::isnan(comparison.bias[kDensityProfile].mean));
   CHECK(std::isnan(comparison.error));
-}
-
-TEST_CASE("Accuracy tables: the plot has cost against error") {
-  AccuracyTable table = gas_table();
-  table.rows.push_back({.setting = "-> 0", .cpu_per_time = kNotANumber});
-  const Plot plot = accuracy_plot({}, {table});
-  CHECK(says(plot.x_name, "CPU milliseconds"));
-  CHECK(says(plot.y_name, "error"));
-  REQUIRE(plot.panels.size() == 1);
-  REQUIRE(plot.panels[0].points.size() == 1);
-  CHECK(plot.panels[0].points[0].x == doctest::Approx(12.5));
-  CHECK(plot.panels[0].points[0].y == doctest::Approx(7.9));
 }
 
 TEST_CASE("Accuracy tables: a straight line is extrapolated to 0 by its errors") {

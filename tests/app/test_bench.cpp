@@ -5,8 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <regex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/bench/features.h"
@@ -23,8 +23,6 @@ TEST_CASE("Bench: the table of fields has a row for each estimator and one for t
   const Outcome outcome = shell.run("clatter bench fields --duration 300 --json t.json");
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
-  CHECK(says(outcome.err, "300 time units"));
-  CHECK(std::ranges::count(outcome.out, '\n') == 10);
   const json table = json::parse(shell.read("t.json"));
   REQUIRE(table.size() == 9);
   check_columns(outcome.out, table, "estimator cost ns/collision variance cost x variance",
@@ -33,35 +31,16 @@ TEST_CASE("Bench: the table of fields has a row for each estimator and one for t
                  {"variance", " %.3e"},
                  {"cost_times_variance", " %.3e"}});
   CHECK(table[0].at("cost") == 1.0);
-  CHECK(table[0].at("added_nanoseconds_per_collision") == 0.0);
-  CHECK(table[0].at("estimator") == "bare run");
-  CHECK_FALSE(table[0].contains("variance"));
   for (std::size_t row = 1; row < 8; ++row) {
-    const std::string name = table[row].at("estimator");
-    CAPTURE(name);
-    CHECK(says(outcome.out, "\n" + name + " "));
+    CAPTURE(row);
     const double cost = table[row].at("cost"), variance = table[row].at("variance");
     CHECK(cost > 0.0);
-    CHECK(variance > 0.0);
     CHECK(table[row].at("cost_times_variance") == doctest::Approx(cost * variance).epsilon(1e-12));
-    // The collisions of a row are the same number n, and (cost - 1)/added is (time of the bare
-    // run)/n.
-    const double added = table[row].at("added_nanoseconds_per_collision");
-    const double of_all_fields = table[1].at("added_nanoseconds_per_collision");
-    const double cost_of_all_fields = table[1].at("cost");
-    CHECK((cost - 1.0) * of_all_fields ==
-          doctest::Approx((cost_of_all_fields - 1.0) * added).epsilon(1e-9));
   }
-  CHECK(table[8].at("estimator") == "balance");
-  CHECK(table[8].at("cost") > 0.0);
-  CHECK_FALSE(table[8].contains("variance"));
   // Thirty snapshots have less information than complete flights, and all fields cost more than T.
   CHECK(table[1].at("estimator") == "exact, all fields");
   CHECK(table[2].at("estimator") == "exact");
-  std::vector<std::string> snapshots;
-  for (std::size_t row = 3; row < 8; ++row) snapshots.push_back(table[row].at("estimator"));
-  CHECK(snapshots == std::vector<std::string>{"snapshot 0.1", "snapshot 0.3", "snapshot 1",
-                                              "snapshot 3", "snapshot 10"});
+  CHECK(table[7].at("estimator") == "snapshot 10");
   CHECK(table[1].at("variance") == table[2].at("variance"));
   CHECK(table[7].at("variance") > table[2].at("variance"));
   CHECK(table[1].at("cost") > table[2].at("cost"));
@@ -95,7 +74,6 @@ TEST_CASE("Bench: the table of accuracy compares each setting of a dial with the
       "--json t.json --csv t.csv --plot t.png --markdown page.md");
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
-  CHECK(says(outcome.err, "8 runs of each setting, seeds 1 to 8, of 40 time units"));
   const json table = json::parse(shell.read("t.json"));
   REQUIRE(table.at("dials").size() == 2);
 
@@ -138,6 +116,7 @@ TEST_CASE("Bench: the table of accuracy compares each setting of a dial with the
   CHECK(bias(estimator[5], "dissipation") == 0.0);
   CHECK(error(estimator[5], "stress") > error(estimator[1], "stress"));
 
+  CHECK(says(outcome.out, "overlap"));
   CHECK(std::ranges::count(shell.read("t.csv"), '\n') == 1 + 7 + 6);
   // Width and height in the header of the picture.
   CHECK(shell.read("t.png").substr(16, 8) == std::string("\0\0\x06\x40\0\0\x03\xe8", 8));
@@ -146,23 +125,10 @@ TEST_CASE("Bench: the table of accuracy compares each setting of a dial with the
   CHECK(page.ends_with("<!-- end of tables -->\nafter\n"));
   CHECK(says(page, "\n| off "));
   CHECK_FALSE(says(page, "\nold\n"));
-  check_refused(shell, "clatter bench accuracy --dial colour",
-                {"no dial 'colour'", "choose one of antialiasing, picture_size, "});
-}
-
-TEST_CASE("Bench: refusals of the table of accuracy name their cause") {
-  const Shell shell;
-  for (const std::string flag : {"--csv", "--json", "--plot", "--markdown"}) {
-    const Outcome outcome = shell.run("clatter bench accuracy " + flag + " none/t");
-    CAPTURE(outcome.err);
-    CHECK(outcome.code != 0);
-    CHECK(says(outcome.err, flag));
-  }
-  shell.write("lone.toml", "box.size = [9, 9]\nparticles.count = 1\n");
-  const std::string refusal = shell.run("clatter bench accuracy lone.toml").err;
-  CAPTURE(refusal);
-  CHECK(says(refusal, "remove [[change]]"));
-  CHECK(refusal.find("at least two disks") < refusal.find("choose another scene"));
+  check_refused(shell, "clatter bench accuracy --dial colour", {"no dial 'colour'"});
+  const Outcome unwritable = shell.run("clatter bench accuracy --plot none/t");
+  CHECK(unwritable.code != 0);
+  CHECK(says(unwritable.err, "--plot"));
 }
 
 TEST_CASE("Bench: a time-stepped gas is exact only in the limit of short steps") {
@@ -210,10 +176,6 @@ TEST_CASE("Bench: coarser pictures resemble the best one less" * doctest::test_s
       CHECK(settings[k].at("cpu_seconds_per_picture") > 0.0);
     }
   }
-  std::vector<std::string> sizes;
-  for (const json& setting : dial_of(table, "picture_size")) sizes.push_back(setting.at("setting"));
-  CHECK(sizes ==
-        std::vector<std::string>{"1920x1080", "1280x720", "854x480", "426x240", "214x120"});
 }
 
 TEST_CASE("Bench: the table of features has a rate for each") {
@@ -221,27 +183,19 @@ TEST_CASE("Bench: the table of features has a rate for each") {
   const Outcome outcome = shell.run("clatter bench features --count 50 --json t.json");
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
-  CHECK(outcome.err.starts_with("50 disks, phi = 0.3; 7 rounds of 10000 collisions each"));
   const json table = json::parse(shell.read("t.json"));
   REQUIRE(table.size() == 33);
-  CHECK(std::ranges::count(outcome.out, '\n') == 34);
   check_columns(outcome.out, table, "with Mcoll/s rate",
                 {{"million_collisions_per_cpu_second", " %.3f"}, {"rate_over_bare", " %.3f"}});
-  const std::vector<Feature> rows = features();
-  REQUIRE(rows.size() == table.size());
   const double bare = table[0].at("million_collisions_per_cpu_second");
-  for (std::size_t k = 0; k < table.size(); ++k) {
-    const json& row = table[k];
+  for (const json& row : table) {
     CAPTURE(row.dump());
-    CHECK(row.at("feature") == rows[k].name);
     // A median of ratios, against the ratio of medians.
     const double rate = row.at("million_collisions_per_cpu_second");
     CHECK(rate > 0.0);
     CHECK(row.at("rate_over_bare") > 0.4 * rate / bare);
     CHECK(row.at("rate_over_bare") < 2.5 * rate / bare);
   }
-  CHECK(table[0].at("feature") == "bare");
-  CHECK(table[0].at("rate_over_bare") == 1.0);
 }
 
 TEST_CASE("Bench: each row of the table of features adds the feature of its name") {
@@ -320,57 +274,41 @@ TEST_CASE("Bench: each row of the table of features adds the feature of its name
   CHECK(row("spin_distribution, rough").observable == ObservableKind::SpinDistribution);
 }
 
-TEST_CASE("Bench: the table of render has the cost of each stage, for pictures of two sizes") {
+TEST_CASE("Bench: the table of render has the cost of each stage, without ffmpeg fewer stages") {
   const Shell shell;
-  for (const auto& [dimension, particles] :
-       {std::pair<std::string, std::string>("2", "disks"), {"3", "spheres"}}) {
-    const Outcome outcome = shell.run("clatter bench render --count 500 --dimension " + dimension +
-                                      " --json table.json");
+  struct Row {
+    std::string program, flags, particles;
+    bool encoders = true;
+  };
+  for (const Row& row :
+       {Row{"clatter", "--dimension 2", "disks"}, Row{"clatter", "--dimension 3", "spheres"},
+        Row{"c=$(command -v clatter); PATH=/none $c", "", "disks", false}}) {
+    CAPTURE(row.program);
+    CAPTURE(row.flags);
+    const Outcome outcome =
+        shell.run(row.program + " bench render --count 500 --json t.json " + row.flags);
     CAPTURE(outcome.err);
     CHECK(outcome.code == 0);
-    CHECK(outcome.err.starts_with("elastic " + particles + " at phi = " +
-                                  (dimension == "2" ? "0.5" : "0.1") + " over a heatmap"));
-    CHECK(says(outcome.err, "with its parts " + particles + ", heatmap and overlay"));
-    CHECK(std::ranges::count(outcome.out, '\n') == 3);
-    const json rows = json::parse(shell.read("table.json"));
+    CHECK(says(outcome.err, "need ffmpeg") == !row.encoders);
+    const json rows = json::parse(shell.read("t.json"));
     REQUIRE(rows.size() == 2);
+    std::vector<std::string> stages = {"simulate", "snapshot", "draw", row.particles,
+                                       "heatmap",  "overlay",  "read", "png"};
+    if (row.encoders) stages.insert(stages.end(), {"x264", "veryfast"});
     std::string heading = "N size";
     std::vector<std::pair<std::string, const char*>> columns;
-    for (const std::string& stage :
-         std::vector<std::string>{"simulate", "snapshot", "draw", particles, "heatmap", "overlay",
-                                  "read", "png", "x264", "veryfast"}) {
+    for (const std::string& stage : stages) {
       heading += " " + stage;
       columns.emplace_back(stage + "_milliseconds", " %.2f");
-    }
-    check_columns(outcome.out, rows, heading, columns);
-    for (const json& row : rows) {
-      CHECK(row["count"] == 500);
-      for (const auto& [stage, format] : columns) {
-        CAPTURE(stage);
-        CHECK(row[stage].get<double>() > 0.0);
+      for (const json& picture : rows) {
+        CHECK(picture[columns.back().first].get<double>() > 0.0);
       }
     }
-    CHECK(says(outcome.out, "500   1280x720 "));
-    CHECK(says(outcome.out, "500  1920x1080 "));
+    check_columns(outcome.out, rows, heading, columns);
+    CHECK(rows[0].contains("x264_milliseconds") == row.encoders);
     CHECK(rows[0]["height"] == 720);
-    CHECK(rows[1]["height"] == 1080);
-    CHECK(rows[0]["width"] == 1280);
     CHECK(rows[1]["width"] == 1920);
   }
-}
-
-TEST_CASE("Bench: without ffmpeg the table of render leaves out the encoder and says so") {
-  const Shell shell;
-  const Outcome outcome =
-      shell.run("c=$(command -v clatter); PATH=/none $c bench render --count 10 --json table.json");
-  CAPTURE(outcome.err);
-  CHECK(outcome.code == 0);
-  CHECK(says(outcome.err, "without the columns of the encoder, which need ffmpeg"));
-  CHECK(std::regex_search(outcome.out, std::regex("read +png\n")));
-  const json rows = json::parse(shell.read("table.json"));
-  REQUIRE(rows.size() == 2);
-  CHECK(rows[0].contains("png_milliseconds"));
-  CHECK_FALSE(rows[0].contains("x264_milliseconds"));
 }
 
 TEST_CASE("Bench: the table of the timeline has the time of jumps and the memory of the record") {
@@ -384,8 +322,6 @@ TEST_CASE("Bench: the table of the timeline has the time of jumps and the memory
                  {"median_milliseconds", " %.2f"},
                  {"longest_milliseconds", " %.2f"},
                  {"record_megabytes", " %.2f"}});
-  CHECK(rows[0]["count"] == 20);
-  CHECK(rows[0]["median_milliseconds"] > 0.0);
   CHECK(rows[0]["longest_milliseconds"] >= rows[0]["median_milliseconds"]);
   // At least the states at the start and at the end: position, velocity, time and number.
   CHECK(rows[0]["record_megabytes"] >= 2e-6 * 20 * 48);

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "app/film/compared_scenes.h"
-#include "app/film/film_ranges.h"
 #include "engine/scene/scene_file.h"
 #include "render/output/image.h"
 #include "tests/app/film_scene.h"
@@ -70,20 +69,6 @@ TEST_CASE("Compare films: each cell shows the gas alone, with its hash") {
   CHECK(says(*text, "restitution = 1.0"));
 }
 
-TEST_CASE("Compare films: cells have the larger extents of their quantities") {
-  View first, second;
-  first.arrows = Quantity::Velocity;
-  second.arrows = Quantity::HeatFlux;
-  const auto shared = shared_extents({{1.0, 5.0, 3.0}, {2.0, 4.0, 7.0}}, {first, second});
-  REQUIRE(shared.size() == 2);
-  for (const RangeEnds& extents : shared) {
-    CHECK(extents.disks == 2.0);
-    CHECK(extents.field == 5.0);
-  }
-  CHECK(shared[0].arrows == 3.0);  // another quantity
-  CHECK(shared[1].arrows == 7.0);
-}
-
 TEST_CASE("Compare films: disks and spheres are beside each other in a film") {
   const Shell shell;
   const Outcome outcome = shell.run(
@@ -145,41 +130,35 @@ TEST_CASE("Compare films: the stop of a gas beside the run ends the film and nam
 
 TEST_CASE("Compare films: what a film of several gases cannot have is refused") {
   const Shell shell;
-  const std::string line = "clatter render vibrated --compare particles.restitution=1 ";
+  const std::string one = "--compare particles.restitution=1 ";
   const std::string more = "--compare particles.count=9 --compare particles.count=8 ";
-  check_refused(shell, line + more + more + "--out f.mp4", {"at most 4 gases"});
-  check_refused(shell, line + "--slurm 4 --out f.mp4", {"--slurm", "one gas"});
-  check_refused(shell, line + "--join . --out f.mp4", {"--join", "one scene"});
-  check_refused(shell, line + more + "--size 40x30 --out f.mp4", {"--size", "20x15", "16x16"});
-  check_refused(shell, "clatter render vibrated --compare restitution --out f.mp4",
-                {"--compare restitution: no value"});
-  check_refused(shell, "clatter render vibrated --compare particles.restitution=7 --out f.mp4",
-                {"--compare particles.restitution: "});
-  check_refused(shell,
-                "clatter render vibrated --set particles.count=-1 --compare walls=1 "
-                "--out f.mp4",
-                {"--set particles.count: "});
+  for (const auto& [flags, word] :
+       {std::pair<std::string, std::string>{one + more + more, "at most 4 gases"},
+        {one + "--slurm 4", "--slurm"},
+        {one + "--join .", "--join"},
+        {one + more + "--size 40x30", "16x16"},
+        {"--compare restitution", "--compare restitution: "},
+        {"--compare particles.restitution=7", "--compare particles.restitution: "},
+        {"--set particles.count=-1 --compare walls=1", "--set particles.count: "}}) {
+    check_refused(shell, "clatter render vibrated " + flags + " --out f.mp4", {word});
+  }
   REQUIRE(shell.run("clatter render vibrated --quiet --size 40x40 --to 0 --out b.png").code == 0);
   check_refused(shell, "clatter render cradle b.png --out b.png", {"b.png"});
 }
 
 TEST_CASE("Compare films: headings name what differs") {
-  const auto titles = [](const std::vector<ComparedScene>& scenes) { return cell_titles(scenes); };
   using Titles = std::vector<std::string>;
   const Scene inelastic = with({}), elastic = with({{"particles.restitution", "1"}});
-  CHECK(titles({{inelastic, 1}, {elastic, 1}}) == Titles{"A: restitution 0.9", "B: restitution 1"});
-  CHECK(titles({{elastic, 1}, {elastic, 2}}) == Titles{"A: seed 1", "B: seed 2"});
-  CHECK(titles({{elastic, 1}, {elastic, 1}}) == Titles{"A", "B"});
-  CHECK(titles({{inelastic, 1},
-                {with({{"box.size", "[20.5, 30]"}, {"walls.left.drive_speed", "2.5"}}), 1}})[1] ==
-        "B: box size [ 20.5, 30 ], walls left drive speed 2.5");
   const Scene other = with({{"title", "\"Other\""}});
-  const std::string title = inelastic.title;
-  CHECK(titles({{inelastic, 1}, {elastic, 1}, {other, 1}}) ==
-        Titles{"A: " + title + ", restitution 0.9", "B: " + title + ", restitution 1", "C: Other"});
   const Scene changed =
       with({{"change", "[{time = 3.0, set = {\"particles.restitution\" = 1.0}}]"}});
-  CHECK(titles({{inelastic, 1}, {changed, 1}}) == Titles{"A: without changes", "B: with changes"});
+  CHECK(cell_titles({{elastic, 1}, {elastic, 2}}) == Titles{"A: seed 1", "B: seed 2"});
+  CHECK(cell_titles({{elastic, 1}, {elastic, 1}}) == Titles{"A", "B"});
+  CHECK(cell_titles({{inelastic, 1}, {elastic, 1}, {other, 1}}) ==
+        Titles{"A: " + inelastic.title + ", restitution 0.9",
+               "B: " + inelastic.title + ", restitution 1", "C: Other"});
+  CHECK(cell_titles({{inelastic, 1}, {changed, 1}}) ==
+        Titles{"A: without changes", "B: with changes"});
 }
 
 }  // namespace clatter

@@ -44,19 +44,6 @@ TEST_CASE("Film files: every format has all pictures at their times, in one stre
   }
 }
 
-TEST_CASE("Film files: joined parts and a resumed GIF have one stream too") {
-  const Shell shell;
-  REQUIRE(shell.run(kFilmOf5Seconds + "--out whole.gif").code == 0);
-  shell.run("mkdir parts");
-  for (const std::string part : {"0:120 --out parts/000000.gif", "120: --out parts/000120.gif"}) {
-    REQUIRE(shell.run(kFilmOf5Seconds + "--frames " + part).code == 0);
-  }
-  REQUIRE(shell.run(kFilmOf5Seconds + "--join parts --out joined.gif").code == 0);
-  CHECK(shell.read("joined.gif") == shell.read("whole.gif"));
-  check_times(read_by(shell, "read_film.py", "joined.gif"), 150, 0.0051);
-  check_times(read_by(shell, "read_film.py", "parts/000120.gif"), 30, 0.0051);
-}
-
 TEST_CASE("Film files: each picture of a transparent WebM has an opacity") {
   const Shell shell;
   REQUIRE(shell.run(kFilmOf5Seconds + "--transparent --out film.webm").code == 0);

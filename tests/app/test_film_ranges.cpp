@@ -121,14 +121,4 @@ TEST_CASE("Film ranges: the colours of a film of a cooling gas follow it, unless
   CHECK(range_of(shell, "locked" + last, 39.2) == begin);
 }
 
-TEST_CASE("Film ranges: parts of a film have the ranges of the whole film") {
-  const Shell shell;
-  write_cooling(shell);
-  REQUIRE(shell.run(kCoolingFilm + "--out whole").code == 0);
-  REQUIRE(shell.run(kCoolingFilm + "--frames 0:30 --checkpoint c --out parts").code == 0);
-  REQUIRE(shell.run(kCoolingFilm + "--frames 30:40 --resume c --out parts").code == 0);
-  REQUIRE(shell.run(kCoolingFilm + "--frames 40: --out parts").code == 0);
-  CHECK(shell.run("diff -r whole parts").code == 0);
-}
-
 }  // namespace clatter

@@ -87,15 +87,6 @@ TEST_CASE("Frame times: each frame is a frame's length after the one before") {
   }
 }
 
-TEST_CASE("Frame times: between two keys the speed changes at a constant rate in the film") {
-  const FrameTimes times{0.0, 2.0, 25.0, 400, {{4.0, 1.0}, {10.0, 0.2}}};
-  const double begin = times.seconds_at(4.0), end = times.seconds_at(10.0);
-  for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-    const double time = times.time_after(begin + share * (end - begin));
-    CHECK(times.speed_at(time) == doctest::Approx(2.0 * (1.0 - 0.8 * share)).epsilon(1e-12));
-  }
-}
-
 TEST_CASE("Frame times: the largest and the smallest factors give finite times in order") {
   // At these times the square of the factor as 1e12 + slope (t - 15.4) rounds to -1.2e-4.
   const FrameTimes times{

@@ -92,19 +92,6 @@ TEST_CASE("H5MD: a complete run continues after an attempt that failed while it 
   CHECK(frames_of(shell, "t.h5md").size() == 121);
 }
 
-TEST_CASE("H5MD: a full disk leaves a checkpoint, from which the file is completed") {
-  const Shell shell;
-  shell.write("s.toml", kDisks);
-  const std::string run = kRun + "--trajectory t.h5md --every 0.1 ";
-  const Outcome full = shell.run("ulimit -f 100; " + run + "--checkpoint c");
-  CHECK(full.code == 1);
-  CHECK(says(full.err,
-             "cannot write t.h5md.records: File too large; continue with --resume c "
-             "--trajectory t.h5md --every 0.1\n"));
-  REQUIRE(shell.run(run + "--resume c").code == 0);
-  CHECK(shell.run(kRun + "--trajectory u.h5md --every 0.1 && cmp t.h5md u.h5md").code == 0);
-}
-
 TEST_CASE("H5MD: if the complete file cannot be written, the run can be resumed") {
   const Shell shell;
   shell.write("s.toml", kDisks);

@@ -108,20 +108,6 @@ TEST_CASE("Plots: curves over time are gains since the previous frame, with thei
   CHECK(residuals.curves.size() == 2);
 }
 
-TEST_CASE("Plots: a sample has each gain under its own name, and the size of residuals") {
-  const TwoFrames frames;
-  REQUIRE(frames.history.samples().size() == 2);
-  const Sample& sample = frames.history.samples()[1];
-  CHECK(sample.time == 11.0);
-  CHECK(sample.temperature == Vec2(3.0, 5.0));
-  CHECK(sample.walls_in == 7.0);
-  CHECK(sample.bulk_in == 9.0);
-  CHECK(sample.gravity_in == 10.0);
-  CHECK(sample.dissipated == 12.0);
-  CHECK(sample.ledger_residual == 3e-15);
-  CHECK(sample.deepest_overlap == 4e-13);
-}
-
 TEST_CASE("Plots: where samples become too many, two are joined to their mean or largest") {
   TwoFrames frames;
   History history;

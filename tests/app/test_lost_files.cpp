@@ -19,7 +19,7 @@ Outcome removed_while(const Shell& shell, const std::string& line, const std::st
 
 }  // namespace
 
-TEST_CASE("Lost files: a full disk as standard output is an error of every command") {
+TEST_CASE("Lost files: a full disk or no file as standard output is an error of every command") {
   const Shell shell;
   for (const std::string line :
        {"bench engine --count 100 --area-fraction 0.1",
@@ -32,6 +32,7 @@ TEST_CASE("Lost files: a full disk as standard output is an error of every comma
     CHECK(outcome.code == 1);
     CHECK(says(outcome.err, "No space left on device"));
   }
+  CHECK(shell.run("clatter check vibrated >&-").code == 1);
 }
 
 TEST_CASE("Lost files: a picture that is removed during the film is an error that names it") {

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
-#include <sstream>
-#include <tuple>
+#include <optional>
 
 #include "tests/support/shell.h"
 
@@ -23,63 +21,27 @@ static double mean(const json& estimate) {
   return estimate.at("mean");
 }
 
-TEST_CASE("Measure: it prints one JSON object, with everything that the scene has") {
+// The other keys are compared in test_results.cpp.
+TEST_CASE("Measure: it prints one JSON object, with its seed, times and cost") {
   const Shell shell;
   const Outcome outcome = shell.run(kMeasure + "--seed 7");
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
   const json result = json::parse(outcome.out);
-
-  CHECK(result.at("schema") == 1);
   CHECK(result.at("seed") == 7);
-  CHECK(result.at("program").get<std::string>().starts_with("clatter "));
-  CHECK(result.at("scene").at("particles").at("count") == 200);
   CHECK(result.at("scene").at("measure").at("burn_in") == 20.0);
-  CHECK(result.at("state_hash").get<std::string>().size() == 16);
   CHECK(result.at("time").at("burn_in") == 20.0);
   CHECK(result.at("time").at("measured").get<double>() == doctest::Approx(100.0));
   CHECK(result.at("events").at("disk_disk") > 1000);
-  CHECK(result.at("events").at("disk_wall") > 100);
-
-  const double t_x = mean(result.at("temperature_x")), t_y = mean(result.at("temperature_y"));
-  CHECK(mean(result.at("temperature")) == doctest::Approx(0.5 * (t_x + t_y)));
-  CHECK(t_x > t_y);  // the walls feed x
-  CHECK(mean(result.at("kurtosis_excess_x")) > -1.0);
-  CHECK(mean(result.at("kurtosis_excess_y")) > -1.0);
   CHECK(mean(result.at("collision_rate")) ==
         doctest::Approx(result.at("events").at("disk_disk").get<double>() * 2 / 200 / 100));
-
-  const json& energy = result.at("energy");
-  CHECK(mean(energy.at("walls_in")) > 0.0);
-  CHECK(mean(energy.at("dissipated")) > 0.0);
-  CHECK(std::abs(energy.at("ledger_residual").get<double>()) < 1e-12);
-  CHECK(mean(result.at("pressure").at("left")) > 0.0);
-  CHECK(mean(result.at("pressure").at("right")) > 0.0);
+  CHECK(std::abs(result.at("energy").at("ledger_residual").get<double>()) < 1e-12);
   // (1 - 7 phi/16)/(1 - phi)^2 with phi = pi/10.
   CHECK(result.at("theory").at("chi").get<double>() == doctest::Approx(1.8338).epsilon(1e-4));
-  CHECK(result.at("theory").at("temperature_simple") > 0.0);
-  CHECK(result.at("theory").at("temperature_refined") > 0.0);
-
   const json& series = result.at("temperature_series");
   REQUIRE(series.at("time").size() == 121);
-  CHECK(series.at("translational").size() == 121);
-  CHECK(series.at("time")[0] == 0.0);
   CHECK(series.at("time")[120] == 120.0);
   CHECK(series.at("translational")[0].get<double>() == doctest::Approx(1.0));
-
-  const json& profile = result.at("profile");
-  CHECK(profile.at("axis") == "x");
-  REQUIRE(profile.at("edges").size() == 21);
-  CHECK(profile.at("edges")[20] == 20.0);
-  double disks = 0.0;
-  for (const json& density : profile.at("density")) disks += density.get<double>() * 25.0;
-  CHECK(disks == doctest::Approx(200.0));
-  for (const char* key : {"density", "temperature_x", "temperature_y"}) {
-    CAPTURE(key);
-    CHECK(profile.at(key).size() == 20);
-    CHECK(profile.at("standard_error").at(key).size() == 20);
-  }
-
   CHECK(result.at("checks").at("deepest_overlap") < 1e-9);
   CHECK(result.at("checks").at("clock_steps_back") < 1e-9);
   CHECK(result.at("performance").at("cpu_seconds") > 0.0);
@@ -87,45 +49,39 @@ TEST_CASE("Measure: it prints one JSON object, with everything that the scene ha
   CHECK(result.at("performance").at("peak_memory_bytes") > 1'000'000);
 }
 
-TEST_CASE("Measure: a result has only the parts of its scene") {
-  const Shell shell;
-  const json cooling =
-      json::parse(shell.run("clatter measure cooling --until 5 --set measure.fields=[]").out);
-  CHECK_FALSE(cooling.at("energy").contains("walls_in"));
-  CHECK_FALSE(cooling.at("pressure").contains("left"));
-  CHECK(cooling.at("pressure").contains("virial"));
-  CHECK_FALSE(cooling.contains("profile"));
-  CHECK_FALSE(cooling.at("theory").contains("psi"));
-  CHECK_FALSE(cooling.contains("spin_temperature"));
-}
-
 TEST_CASE("Measure: the result has the predictions of theory for a gas in a periodic box") {
   const Shell shell;
-  const auto theory = [&](const std::string& line) {
-    const Outcome outcome = shell.run("clatter measure " + line + " --quiet --until 5");
+  struct Row {
+    std::string scene, key;
+    std::optional<double> value;
+  };
+  const std::string driven = "rough_driven --set measure.burn_in=0";
+  for (const Row& row : {
+           // Independently computed: 1630 disks in 80 x 80 with alpha = .7 (theory 6).
+           Row{"cooling", "compressibility", 1.4848714567},
+           {"cooling", "haff_rate", 0.164135655149},
+           // alpha = .9, beta = .3, q = 1/2: by bisection of the energy transfers in collisions.
+           {"rough_cooling", "temperature_ratio", 0.652744303614},
+           // Kicks of 0.1 per component every 0.05, their mean removed: 0.01 (1 - 1/400) / 0.05.
+           {driven, "bulk_drive_power", 0.1995},
+           {driven, "temperature_driven", {}},  // friction has a limit
+           {driven + " --set particles.friction=inf", "temperature_ratio", 0.25 / (1.0 - 0.5)},
+           // No dissipation.
+           {"equilibrium --set particles.restitution=1 --set measure.burn_in=0 "
+            "--set 'bulk_drive={interval=1,kick_speed=1}'",
+            "temperature_driven",
+            {}},
+           {"vibrated --set measure.burn_in=0", "compressibility", {}},
+       }) {
+    CAPTURE(row.scene);
+    CAPTURE(row.key);
+    const Outcome outcome = shell.run("clatter measure " + row.scene + " --quiet --until 5");
     CAPTURE(outcome.err);
     REQUIRE(outcome.code == 0);
-    return json::parse(outcome.out).at("theory");
-  };
-  // Independently computed: 1630 disks in 80 x 80 with alpha = .7 (theory 6).
-  const json cooling = theory("cooling");
-  CHECK(cooling.size() == 3);
-  CHECK(cooling.at("compressibility").get<double>() == doctest::Approx(1.4848714567));
-  CHECK(cooling.at("haff_rate").get<double>() == doctest::Approx(0.164135655149));
-  // alpha = .9, beta = .3, q = 1/2: by bisection of the energy transfers in collisions.
-  CHECK(theory("rough_cooling").at("temperature_ratio").get<double>() ==
-        doctest::Approx(0.652744303614));
-
-  // Kicks of 0.1 per component every 0.05, their mean removed: H = 0.01 (1 - 1/400) / 0.05.
-  const json partial = theory("rough_driven --set measure.burn_in=0");
-  CHECK(partial.at("bulk_drive_power").get<double>() == doctest::Approx(0.1995));
-  CHECK_FALSE(partial.contains("temperature_driven"));  // friction has a limit
-  const json driven = theory("rough_driven --set measure.burn_in=0 --set particles.friction=inf");
-  CHECK(driven.at("temperature_ratio").get<double>() == doctest::Approx(0.25 / (1.0 - 0.5)));
-  CHECK_FALSE(theory("equilibrium --set particles.restitution=1 "
-                     "--set 'bulk_drive={interval=1,kick_speed=1}' --set measure.burn_in=0")
-                  .contains("temperature_driven"));  // no dissipation
-  CHECK_FALSE(theory("vibrated --set measure.burn_in=0").contains("compressibility"));
+    const json theory = json::parse(outcome.out).at("theory");
+    REQUIRE(theory.contains(row.key) == row.value.has_value());
+    if (row.value) CHECK(theory.at(row.key).get<double>() == doctest::Approx(*row.value));
+  }
 }
 
 TEST_CASE(
@@ -147,85 +103,8 @@ TEST_CASE("Measure: results and tables go into the files asked for") {
   CHECK(outcome.out.empty());
   CHECK(outcome.err.empty());
   CHECK(shell.files() == std::vector<std::string>{"r.json", "tables"});
-  const json result = json::parse(shell.read("r.json"));
-
-  std::istringstream series(shell.read("tables/temperature_series.csv"));
-  std::string line;
-  std::getline(series, line);
-  CHECK(line.starts_with("# units"));
-  std::getline(series, line);
-  CHECK(line == "time,temperature");
-  for (std::size_t k = 0; k < 121; ++k) {
-    double time = -1.0, temperature = -1.0;
-    char comma = 0;
-    REQUIRE(std::getline(series, line));
-    std::istringstream(line) >> time >> comma >> temperature;
-    CHECK(comma == ',');
-    CHECK(time == result.at("temperature_series").at("time")[k]);
-    CHECK(temperature == result.at("temperature_series").at("translational")[k]);
-  }
-  CHECK_FALSE(std::getline(series, line));
-
-  const std::string profile = shell.read("tables/profile.csv");
-  CHECK(says(profile, "\nx_low,x_high,density,density_error,"));
-  CHECK(std::ranges::count(profile, '\n') == 22);
-}
-
-TEST_CASE("Measure: profiles have every field that was asked for, and no other") {
-  const Shell shell;
-  const auto profile = [&](const std::string& flags) {
-    const Outcome outcome = shell.run(
-        "clatter measure vibrated --set measure.burn_in=5 --until 30 --csv tables "
-        "--set measure.cells=[10,5] " +
-        flags);
-    CAPTURE(outcome.err);
-    REQUIRE(outcome.code == 0);
-    return json::parse(outcome.out).at("profile");
-  };
-  const auto keys = [](const json& object) {
-    std::vector<std::string> names;
-    for (const auto& [key, value] : object.items()) names.push_back(key);
-    return names;
-  };
-  const json all = profile(
-      "--set 'measure.fields=[\"density\",\"velocity\",\"temperature\",\"stress\","
-      "\"stress_kinetic\",\"stress_collisional\",\"heat_flux\",\"heat_flux_kinetic\","
-      "\"heat_flux_collisional\",\"dissipation\",\"spin\",\"spin_temperature\"]' "
-      "--set particles.friction=0.5");
-  for (const char* key :
-       {"density", "velocity_x", "velocity_y", "temperature", "temperature_x", "temperature_y",
-        "stress_xx", "stress_yy", "stress_xy", "stress_xx_kinetic", "stress_xy_collisional",
-        "heat_flux_x", "heat_flux_y", "heat_flux_x_kinetic", "heat_flux_y_collisional",
-        "dissipation", "spin", "spin_temperature"}) {
-    CAPTURE(key);
-    REQUIRE(all.at(key).size() == 10);
-    CHECK(all.at("standard_error").at(key).size() == 10);
-    CHECK(all.at("standard_error").at(key)[4] > 0.0);
-    CHECK(all.at(key)[4].is_number());
-  }
-  CHECK(all.at("stress_xx")[4].get<double>() ==
-        doctest::Approx(all.at("stress_xx_kinetic")[4].get<double>() +
-                        all.at("stress_xx_collisional")[4].get<double>()));
-  const std::string table = shell.read("tables/profile.csv");
-  CHECK(table.starts_with("# units"));
-  CHECK(says(table, "heat_flux_x: m a/t^3"));
-  CHECK(says(table, "\nx_low,x_high,density,density_error,velocity_x,"));
-  CHECK(std::ranges::count(table, '\n') == 12);
-
-  const json along_y = profile("--set 'measure.fields=[\"stress\"]' --set measure.profile_axis=y");
-  CHECK(along_y.at("axis") == "y");
-  CHECK(along_y.at("edges") == json({0.0, 5.0, 10.0, 15.0, 20.0, 25.0}));
-  CHECK(keys(along_y) == std::vector<std::string>{"axis", "edges", "standard_error", "stress_xx",
-                                                  "stress_xy", "stress_yy"});
-  CHECK(says(shell.read("tables/profile.csv"), "\ny_low,y_high,stress_xx,"));
-
-  const json snapshots = profile(
-      "--set measure.estimator=snapshot --set measure.interval=0.5 "
-      "--set measure.kernel=gaussian --set measure.width=2.5");
-  double disks = 0.0;
-  for (const json& density : snapshots.at("density")) disks += density.get<double>() * 50.0;
-  CHECK(disks < 200.0);  // the remaining density is behind the walls
-  CHECK(disks > 150.0);
+  CHECK(json::accept(shell.read("r.json")));
+  CHECK(shell.run("ls tables").out == "maps.csv\nprofile.csv\ntemperature_series.csv\n");
 }
 
 TEST_CASE("Measure: a run can start from a saved state") {
@@ -327,24 +206,18 @@ TEST_CASE("Measure: it ends once its mean is as precise as asked, and says how p
   const json late = json::parse(more.out);
   CHECK(late.at("time").at("measured").get<double>() == doctest::Approx(300.0));
   CHECK(late.at("accuracy").at("reached") > 0.01);
-  const double known = late.at("accuracy").at("reached");
   CHECK(late.at("accuracy").at("asked") == 0.01);
   CHECK(late.at("accuracy").at("of") == "pressure.left");
-  double told_mean = 0.0, told_error = 0.0, time = 0.0, aim = 0.0, end = 0.0;
-  REQUIRE(std::sscanf(more.err.substr(more.err.find("note: pressure")).c_str(),
-                      "note: pressure.left = %lf, relative error %lf %% after %lf time units; for "
-                      "%lf %%, give about --until %lf",
-                      &told_mean, &told_error, &time, &aim, &end) == 5);
-  CHECK(told_mean == doctest::Approx(mean(late.at("pressure").at("left"))).epsilon(1e-5));
-  CHECK(told_error == doctest::Approx(100.0 * known).epsilon(0.01));
-  CHECK(time == doctest::Approx(300.0));
-  CHECK(aim == 1.0);
   // The error falls with the square root of the time after the burn-in.
+  const double known = late.at("accuracy").at("reached");
+  const std::string advice = "give about --until ";
+  REQUIRE(says(more.err, advice));
+  const double end = std::stod(more.err.substr(more.err.find(advice) + advice.size()));
   CHECK(end == doctest::Approx(500.0 + 300.0 * std::pow(known / 0.01, 2.0)).epsilon(0.05));
 
   check_refused(shell, line + "--accuracy 1% --accuracy-of pressure.top",
-                {"no mean 'pressure.top'", "choose one of temperature, temperature_x, "});
-  check_refused(shell, line + "--accuracy 100%", {"a share such as 1% or 0.01"});
+                {"no mean 'pressure.top'"});
+  check_refused(shell, line + "--accuracy 100%", {"--accuracy"});
 }
 
 // At alpha = 0.9975 the dissipation balances the walls' energy for a gas of uniform density. It
@@ -369,63 +242,31 @@ TEST_CASE("Measure: theory has no temperature for a gas that its walls heat with
   CHECK_FALSE(theory("--set gravity.acceleration=[0,-1]").contains("psi"));
 }
 
-TEST_CASE("Measure: where the result goes to a file, a note has the temperature") {
+TEST_CASE("Measure: notes have the temperature of a result file, and tables without fields") {
   const Shell shell;
-  const std::string line =
-      "clatter measure vibrated --set measure.burn_in=5 --until 25 --out a.json";
-  const Outcome outcome = shell.run(line);
-  CHECK(outcome.out.empty());
-  const json temperature = json::parse(shell.read("a.json")).at("temperature");
-  double mean = 0.0, error = 0.0, time = 0.0;
-  REQUIRE(std::sscanf(outcome.err.c_str(),
-                      "note: temperature = %lf +- %lf, averaged over %lf time units", &mean, &error,
-                      &time) == 3);
-  CHECK(time == 20.0);
-  const double true_error = temperature.at("standard_error");
-  CHECK(error == doctest::Approx(true_error).epsilon(0.05));
-  CHECK(std::fabs(mean - temperature.at("mean").get<double>()) < 0.06 * true_error);
-  CHECK_FALSE(says(shell.run(line + " --quiet").err, "temperature"));
-  CHECK_FALSE(says(shell.run(line + " --accuracy 50%").err, "+-"));
-}
-
-TEST_CASE("Measure: tables without fields are noted") {
-  const Shell shell;
-  const char* kNote = "note: measure.fields is empty: no profile and no maps";
-  const std::string line = "clatter measure cooling --until 1 --set measure.fields=[] ";
-  for (const char* flag : {"--csv tables", "--hdf5 a.h5"}) {
-    CHECK(says(shell.run(line + flag).err, kNote));
-    CHECK_FALSE(says(shell.run(line + "--quiet " + flag).err, kNote));
-  }
-  CHECK_FALSE(says(shell.run("clatter measure vibrated --until 1 --csv maps").err, kNote));
-}
-
-TEST_CASE("Measure: averages continue over a change of a restitution, and restart over gravity") {
-  const Shell shell;
-  for (const std::string key : {"particles.restitution = 0.8", "gravity.acceleration = [0.1, 0]"}) {
-    CAPTURE(key);
-    shell.run("clatter check vibrated --quiet > s.toml");
-    shell.write("change.toml", shell.read("s.toml") + "[[change]]\ntime = 3\nset." + key + "\n");
-    const Outcome outcome =
-        shell.run("clatter measure change.toml --set measure.burn_in=1 --until 6");
-    CAPTURE(outcome.err);
-    CHECK(outcome.code == 0);
-    const bool restarts = key.starts_with("gravity");
-    CHECK(says(outcome.err, "averages restart at t = 3\n") == restarts);
-    CHECK(json::parse(outcome.out).at("time").at("burn_in") == (restarts ? 3.0 : 1.0));
+  const std::string line = "clatter measure vibrated --set measure.burn_in=5 --until 25 ";
+  const std::string written = line + "--out a.json ";
+  const std::string emptied = line + "--set measure.fields=[] ";
+  const std::string mean = "note: temperature = ", empty = "measure.fields is empty";
+  CHECK(says(shell.run(written).err, mean));
+  CHECK_FALSE(says(shell.run(written + "--quiet").err, mean));
+  for (const std::string flag : {"--csv tables", "--hdf5 a.h5"}) {
+    CHECK(says(shell.run(emptied + flag).err, empty));
+    CHECK_FALSE(says(shell.run(emptied + "--quiet " + flag).err, empty));
+    CHECK_FALSE(says(shell.run(line + flag).err, empty));
   }
 }
 
 TEST_CASE("Measure: a gas that cools is reported as not stationary") {
   const Shell shell;
   const Outcome cooling = shell.run("clatter measure cooling --until 5");
-  CHECK(says(cooling.err, "temperature is not stationary: in the second half"));
-  CHECK(says(cooling.err, "lower by"));
+  const std::string lower = "lower by ";
+  REQUIRE(says(cooling.err, lower));
   const double drift = json::parse(cooling.out).at("checks").at("temperature_drift");
   CHECK(drift < -3.0);
-  const std::size_t at = cooling.err.find("lower by ");
-  CHECK(std::stod(cooling.err.substr(at + 9)) == doctest::Approx(-drift).epsilon(0.06));
-  const Outcome equilibrium = shell.run("clatter measure equilibrium --until 20");
-  CHECK_FALSE(says(equilibrium.err, "stationary"));
+  CHECK(std::stod(cooling.err.substr(cooling.err.find(lower) + lower.size())) ==
+        doctest::Approx(-drift).epsilon(0.06));
+  CHECK_FALSE(says(shell.run("clatter measure equilibrium --until 20").err, "stationary"));
 }
 
 TEST_CASE("Measure: progress is written to stderr as asked") {
@@ -465,76 +306,6 @@ TEST_CASE("Measure: check predicts the memory that a measurement takes") {
     CHECK(1e6 * megabytes < 1.5 * peak);
     CHECK(1e6 * megabytes > 0.7 * peak);
   }
-}
-
-TEST_CASE("Measure: spheres have a third axis, six walls, and maps with depth") {
-  const Shell shell;
-  shell.write("s.toml", R"(
-      box.size = [6.0, 5.0, 4.0]
-      particles = { count = 40, restitution = 0.9, friction = 0.3 }
-      gravity.acceleration = [0.1, -0.3, 0.2]
-      walls.left = { kind = "driven", drive_speed = 1.0 }
-      walls.right = { kind = "static" }
-      walls.bottom = { kind = "sinusoidal", stroke = 0.1, frequency = 1.0 }
-      walls.top = { kind = "static" }
-      walls.back = { kind = "thermal", temperature = 2.0 }
-      walls.front = { kind = "static", restitution = 0.8 }
-      [measure]
-      burn_in = 10.0
-      duration = 50.0
-      fields = ["density", "velocity", "temperature", "stress", "balance"]
-      cells = [3, 2, 4]
-      profile_axis = "z")");
-  REQUIRE(shell.run("clatter measure s.toml --quiet --out whole.json --csv tables").code == 0);
-  const json result = json::parse(shell.read("whole.json"));
-  const auto mean_at = [&](const std::string& pointer) {
-    return result.at(json::json_pointer(pointer)).at("mean").get<double>();
-  };
-  CHECK(mean_at("/temperature") ==
-        doctest::Approx(
-            (mean_at("/temperature_x") + mean_at("/temperature_y") + mean_at("/temperature_z")) /
-            3.0));
-  CHECK(mean_at("/kurtosis_excess_z") > -1.0);
-  CHECK(mean_at("/spin_temperature") > 0.0);
-  // The forces of each pair of walls differ by the weight of the gas, per area of the wall.
-  const double weight = 40.0;
-  for (const auto& [near, far, share] : {std::tuple("left", "right", 0.1 / 20.0),
-                                         {"bottom", "top", -0.3 / 24.0},
-                                         {"back", "front", 0.2 / 30.0}}) {
-    CAPTURE(near);
-    const double difference =
-        mean_at("/pressure/" + std::string(far)) - mean_at("/pressure/" + std::string(near));
-    CHECK(difference == doctest::Approx(weight * share).epsilon(0.1));
-  }
-  CHECK(result.at("checks").at("deepest_overlap") < 1e-9);
-  CHECK(result.at("balance").at("energy") < 1e-9);
-  const json& profile = result.at("profile");
-  CHECK(profile.at("edges") == json({0.0, 1.0, 2.0, 3.0, 4.0}));
-  for (const char* name : {"velocity_z", "temperature_z", "stress_zz", "stress_xz", "stress_yz"}) {
-    CHECK(profile.at(name).size() == 4);
-  }
-  // The density, 40 spheres in all, from the cells of the map.
-  double spheres = 0.0;
-  std::istringstream maps(shell.read("tables/maps.csv"));
-  std::string line;
-  std::getline(maps, line);
-  std::getline(maps, line);
-  CHECK(line.starts_with("x,y,z,density,"));
-  for (int k = 0; k < 24; ++k) {
-    std::getline(maps, line);
-    double x, y, z, density;
-    REQUIRE(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf", &x, &y, &z, &density) == 4);
-    CHECK(x == doctest::Approx(2.0 * (k % 3) + 1.0));
-    CHECK(y == doctest::Approx(2.5 * (k / 3 % 2) + 1.25));
-    CHECK(z == doctest::Approx(1.0 * (k / 6) + 0.5));
-    spheres += 5.0 * density;
-  }
-  CHECK(spheres == doctest::Approx(40.0).epsilon(1e-9));
-  // A run in two parts is the same run.
-  REQUIRE(shell.run("clatter measure s.toml --quiet --until 30 --checkpoint c --out a.json").code ==
-          0);
-  REQUIRE(shell.run("clatter measure s.toml --quiet --until 60 --resume c --out b.json").code == 0);
-  CHECK(json::parse(shell.read("b.json")).at("state_hash") == result.at("state_hash"));
 }
 
 }  // namespace clatter

@@ -20,19 +20,17 @@ using testing::table_in;
 
 namespace {
 
-const char* const kAllOfSpheres =
-    "[\"radial_distribution\", \"velocity_distribution\", \"free_flights\", \"collisions\", "
-    "\"wall_hits\", \"mean_squared_displacement\", \"velocity_autocorrelation\", "
-    "\"structure_factor\", \"clusters\", \"wall_power\", \"plane_current\", "
-    "\"local_density\", \"spin_distribution\", \"probe\", \"collision_counts\", "
-    "\"radial_distribution_profile\"]";
-
-const char* const kAllOfDisks =
-    "[\"radial_distribution\", \"velocity_distribution\", \"free_flights\", \"collisions\", "
-    "\"wall_hits\", \"mean_squared_displacement\", \"velocity_autocorrelation\", "
-    "\"structure_factor\", \"clusters\", \"bond_order\", \"wall_power\", \"plane_current\", "
-    "\"local_density\", \"spin_distribution\", \"probe\", \"collision_counts\", "
-    "\"radial_distribution_profile\"]";
+// Bond order is for disks only.
+std::string all_of(int dimension) {
+  return std::string(
+             "[\"radial_distribution\", \"velocity_distribution\", \"free_flights\", "
+             "\"collisions\", "
+             "\"wall_hits\", \"mean_squared_displacement\", \"velocity_autocorrelation\", "
+             "\"structure_factor\", \"clusters\", \"wall_power\", \"plane_current\", "
+             "\"local_density\", \"spin_distribution\", \"probe\", \"collision_counts\", "
+             "\"radial_distribution_profile\"") +
+         (dimension == 2 ? ", \"bond_order\"]" : "]");
+}
 
 // A gas without any symmetry, of disks or spheres.
 std::string scene(int dimension, const std::string& observables) {
@@ -94,40 +92,41 @@ std::vector<Expected> expected_tables(int dimension) {
       histogram("collisions.normal_speed", "a/t", "1/(a/t)"),
       histogram("collisions.tangential_speed", "a/t", "1/(a/t)"),
       histogram("collisions.energy_loss", energy, "1/(" + energy + ")"),
-      histogram("wall_hits.left.incoming", "a/t", "1/(a/t)"),
-      histogram("wall_hits.left.outgoing", "a/t", "1/(a/t)"),
-      histogram("wall_hits.right.incoming", "a/t", "1/(a/t)"),
-      histogram("wall_hits.right.outgoing", "a/t", "1/(a/t)"),
       {"mean_squared_displacement", {{"time", "t"}, {"total", "a^2"}}, {"time"}},
       {"velocity_autocorrelation", {{"time", "t"}, {"mean", "a^2/t^2"}}, {"time"}},
       {"structure_factor", {{"k", "1/a"}, {"vectors", "1"}, {"S", "1"}}, {"k", "vectors"}},
-      histogram("clusters.size", "1", "1"),
       {"clusters.growth",
        {{"time", "t"}, {"number", "1"}, {"largest", "1"}, {"mean_size", "1"}},
        {"time", "number", "largest", "mean_size"}},
-      histogram("wall_power.left", power, "1/(" + power + ")"),
-      histogram("wall_power.right", power, "1/(" + power + ")"),
-      histogram("wall_power.total", power, "1/(" + power + ")"),
-      histogram("plane_current.number", "1", "1"),
-      histogram("local_density.number", "1", "1"),
       {"velocity_distribution.tails", {{"low", "1"}, {"high", "1"}}, {"low", "high"}},
-      histogram("collision_counts.particle", "1", "1"),
-      histogram("collision_counts.pair", "1", "1"),
       {"radial_distribution_profile",
        {{"x_low", "a"}, {"x_high", "a"}, {"r", "a"}, {"g", "1"}},
        {"x_low", "x_high", "r"}},
       {"spin_distribution.components", {{"low", "1"}, {"high", "1"}}, {"low", "high"}}};
+  for (const std::string name : {"clusters.size", "plane_current.number", "local_density.number",
+                                 "collision_counts.particle", "collision_counts.pair"}) {
+    tables.push_back(histogram(name, "1", "1"));
+  }
+  for (const std::string place : {"left", "right", "total"}) {
+    tables.push_back(histogram("wall_power." + place, power, "1/(" + power + ")"));
+    if (place == "total") continue;
+    for (const char* way : {".incoming", ".outgoing"}) {
+      tables.push_back(histogram("wall_hits." + place + way, "a/t", "1/(a/t)"));
+    }
+  }
+  const auto table = [&](const std::string& name) -> Expected& {
+    return *std::ranges::find(tables, name, &Expected::name);
+  };
   if (dimension == 2) {
     tables.push_back({"bond_order", {{"time", "t"}, {"correlation", "1"}}, {"time"}});
   }
-  Expected& spins = *std::ranges::find(tables, "spin_distribution.components", &Expected::name);
+  Expected& spins = table("spin_distribution.components");
   if (dimension == 2) {
     spins.columns.emplace_back("density", "1");
   } else {
     for (const char* axis : {"x", "y", "z"}) spins.columns.emplace_back(axis, "1");
     tables.push_back(histogram("spin_distribution.cosine", "1", "1"));
   }
-  Expected& tails = *std::ranges::find(tables, "velocity_distribution.tails", &Expected::name);
   Expected probe = {"probe.series",
                     {{"time", "t"},
                      {"density", dimension == 2 ? "1/a^2" : "1/a^3"},
@@ -135,13 +134,13 @@ std::vector<Expected> expected_tables(int dimension) {
                     {"time", "density", "temperature"}};
   for (int axis = 0; axis < dimension; ++axis) {
     const std::string name(1, "xyz"[axis]);
-    tails.columns.emplace_back(name, "1");
+    table("velocity_distribution.tails").columns.emplace_back(name, "1");
     probe.columns.emplace_back("velocity_" + name, "a/t");
     probe.without_errors.push_back("velocity_" + name);
-    tables[1].columns.emplace_back(name, "1");
-    tables[13].columns.emplace_back(name, "a^2");
-    tables[13].columns.emplace_back("drift_" + name, "a");
-    tables[14].columns.emplace_back(name, "a^2/t^2");
+    table("velocity_distribution").columns.emplace_back(name, "1");
+    table("mean_squared_displacement").columns.emplace_back(name, "a^2");
+    table("mean_squared_displacement").columns.emplace_back("drift_" + name, "a");
+    table("velocity_autocorrelation").columns.emplace_back(name, "a^2/t^2");
   }
   tables.push_back(std::move(probe));
   return tables;
@@ -153,7 +152,7 @@ TEST_CASE("Observables: JSON, CSV and HDF5 have the same tables") {
   for (const int dimension : {2, 3}) {
     CAPTURE(dimension);
     const Shell shell;
-    shell.write("s.toml", scene(dimension, dimension == 2 ? kAllOfDisks : kAllOfSpheres));
+    shell.write("s.toml", scene(dimension, all_of(dimension)));
     const Outcome outcome =
         shell.run("clatter measure s.toml --quiet --out r.json --csv t --hdf5 r.h5");
     CAPTURE(outcome.err);
@@ -206,7 +205,7 @@ TEST_CASE("Observables: JSON, CSV and HDF5 have the same tables") {
 
 TEST_CASE("Observables: a resumed run has the same results") {
   const Shell shell;
-  shell.write("s.toml", scene(2, kAllOfDisks));
+  shell.write("s.toml", scene(2, all_of(2)));
   const std::string line = "clatter measure s.toml --quiet --set measure.duration=40000 ";
   REQUIRE(shell.run(line + "--out whole.json").code == 0);
   REQUIRE(cut_off(shell, line + "--out part.json", "TERM").code == 130);
@@ -258,47 +257,32 @@ TEST_CASE("Observables: losses before a change of the laws are in the result") {
 TEST_CASE("Observables: settings without their observable are refused") {
   const Shell shell;
   shell.write("s.toml", scene(2, "[\"free_flights\"]"));
-  const std::string line = "clatter measure s.toml --set ";
-  check_refused(shell, line + "measure.radial_distribution.bins=50",
-                {"has no meaning without its observable", "measure.observables"});
-  check_refused(shell, line + "'measure.observables=[\"radial\"]'", {"\"radial_distribution\""});
-  check_refused(shell,
-                line +
-                    "'measure.observables=[\"velocity_distribution\"]' --set "
-                    "measure.velocity_distribution.interval=1e-9",
-                {"measure.velocity_distribution.interval", "more than 1e7 samples"});
-  check_refused(shell,
-                line +
-                    "'measure.observables=[\"mean_squared_displacement\"]' --set "
-                    "measure.mean_squared_displacement.longest=1e30",
-                {"measure.mean_squared_displacement.longest", "more than 1e7 intervals"});
-  check_refused(shell,
-                line +
-                    "'measure.observables=[\"structure_factor\"]' --set "
-                    "measure.structure_factor.range=1e5",
-                {"measure.structure_factor.range", "more than 1e4 waves along the box"});
-  check_refused(shell,
-                "clatter measure vibrated --set 'measure.observables=[\"structure_factor\"]' --set "
-                "walls.bottom.kind=static --set walls.top.kind=static",
-                {"\"structure_factor\" needs a periodic axis"});
-  const std::string region = "clatter measure p.toml";
-  const auto check_region = [&](const std::string& keys, const std::vector<std::string>& told) {
-    shell.write("p.toml", scene(2, "[\"probe\"]") + "[measure.probe]\n" + keys);
-    check_refused(shell, region, told);
+  const auto with = [](const std::string& kind, const std::string& setting) {
+    return "'measure.observables=[\"" + kind + "\"]' --set measure." + kind + "." + setting;
   };
-  check_region("lower = [1.0, 1.0, 1.0]\n", {"p.toml:20:1:", "3 numbers", "give 2"});
-  check_region("lower = [3.0, 1.0]\nupper = [2.0, 5.0]\n",
-               {"p.toml:21:1:", "from 3 to 2 along x", "lower < upper, both from 0 to 11"});
-  check_region("upper = [5.0, 9.5]\n", {"p.toml:20:1:", "along y", "from 0 to 9"});
-  check_region("lower = [-1.0, 0.0]\n", {"p.toml:20:1:", "measure.probe.lower"});
-  check_refused(shell,
-                "clatter measure vibrated --set "
-                "'measure.observables=[\"radial_distribution_profile\"]' --set "
-                "measure.radial_distribution_profile.axis=z",
-                {"measure.radial_distribution_profile.axis", "cannot be \"z\""});
-  check_refused(shell,
-                "clatter measure spheres_vibrated --set 'measure.observables=[\"bond_order\"]'",
-                {"\"bond_order\" is for disks only"});
+  for (const auto& [flags, words] : std::vector<std::pair<std::string, std::string>>{
+           {"s.toml --set measure.radial_distribution.bins=50", "without its observable"},
+           {"s.toml --set 'measure.observables=[\"radial\"]'", "\"radial_distribution\""},
+           {"s.toml --set " + with("velocity_distribution", "interval=1e-9"), "1e7 samples"},
+           {"s.toml --set " + with("mean_squared_displacement", "longest=1e30"), "1e7 intervals"},
+           {"vibrated --set " + with("velocity_autocorrelation", "interval=1e-9"),
+            "a lag of at most 0.01, or an interval of at least 1e-06"},
+           {"s.toml --set " + with("structure_factor", "range=1e5"), "1e4 waves along the box"},
+           {"vibrated --set 'measure.observables=[\"structure_factor\"]' --set "
+            "walls.bottom.kind=static --set walls.top.kind=static",
+            "\"structure_factor\" needs a periodic axis"},
+           {"vibrated --set " + with("radial_distribution_profile", "axis=z"), "cannot be \"z\""},
+           {"spheres_vibrated --set 'measure.observables=[\"bond_order\"]'", "for disks only"}}) {
+    check_refused(shell, "clatter measure " + flags, {words});
+  }
+  for (const auto& [keys, words] : std::vector<std::pair<std::string, std::vector<std::string>>>{
+           {"lower = [1.0, 1.0, 1.0]\n", {"p.toml:20:1:", "3 numbers"}},
+           {"lower = [3.0, 1.0]\nupper = [2.0, 5.0]\n", {"p.toml:21:1:", "from 3 to 2 along x"}},
+           {"upper = [5.0, 9.5]\n", {"p.toml:20:1:", "along y", "from 0 to 9"}},
+           {"lower = [-1.0, 0.0]\n", {"p.toml:20:1:", "measure.probe.lower"}}}) {
+    shell.write("p.toml", scene(2, "[\"probe\"]") + "[measure.probe]\n" + keys);
+    check_refused(shell, "clatter measure p.toml", words);
+  }
 }
 
 }  // namespace clatter

@@ -15,12 +15,15 @@ using testing::TemporaryFolder;
 
 namespace {
 
-constexpr const char* kLinear = R"(scene = "vibrated"
-refine = true
-budget = 50
-[axes]
-"particles.restitution" = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]
-)";
+// A refined sweep of some axes.
+std::string refined(int budget, const std::string& axes, const std::string& head = "") {
+  return "scene = \"vibrated\"\nrefine = true\nbudget = " + std::to_string(budget) + "\n" + head +
+         "[axes]\n" + axes;
+}
+
+const std::string kLinear = "\"particles.restitution\" = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]\n";
+
+using Texts = std::set<std::string>;
 
 double setting(const SweepPoint& point, const std::string& key) {
   for (const Override& one : point) {
@@ -30,28 +33,31 @@ double setting(const SweepPoint& point, const std::string& key) {
   return 0.0;
 }
 
+struct Mean {
+  double mean = 0.0;
+  double error = 0.0;
+};
+
+void write_result(const SweepFolder& folder, const SweepRun& run, const Mean& mean) {
+  const json result = {{"program", "clatter"},
+                       {"seed", run.seed},
+                       {"state_hash", "0"},
+                       {"time", {{"measured", 1.0}}},
+                       {"temperature", {{"mean", mean.mean}, {"standard_error", mean.error}}}};
+  testing::write_bytes(folder.result(run.id), result.dump());
+}
+
 // The folder of a sweep without measurements. Its results are written by the test.
 class MadeSweep {
  public:
   explicit MadeSweep(const std::string& text)
       : folder_(SweepFolder::make(text, "s.toml", temporary_ / "d")) {}
 
-  struct Mean {
-    double mean = 0.0;
-    double error = 0.0;
-  };
-
   // Writes the result of each run without one, with the temperature of its settings.
   void measure(const std::function<Mean(const SweepPoint&)>& temperature) const {
     for (const SweepRun& run : folder_.runs()) {
       if (std::filesystem::exists(folder_.result(run.id))) continue;
-      const Mean mean = temperature(run.settings);
-      const json result = {{"program", "clatter"},
-                           {"seed", run.seed},
-                           {"state_hash", "0"},
-                           {"time", {{"measured", 1.0}}},
-                           {"temperature", {{"mean", mean.mean}, {"standard_error", mean.error}}}};
-      testing::write_bytes(folder_.result(run.id), result.dump());
+      write_result(folder_, run, temperature(run.settings));
     }
   }
 
@@ -62,6 +68,13 @@ class MadeSweep {
       texts.push_back(settings_text(point));
     }
     return texts;
+  }
+
+  // The texts of the first two of the next four points.
+  Texts next_two() const {
+    const std::vector<std::string> texts = next();
+    REQUIRE(texts.size() == 4);
+    return {texts.begin(), texts.begin() + 2};
   }
 
   // Measures and refines until the end of the refinement. Returns all points.
@@ -85,59 +98,38 @@ class MadeSweep {
   SweepFolder folder_;
 };
 
-using Mean = MadeSweep::Mean;
-
 }  // namespace
 
 TEST_CASE("Refinement: new points are where the curve bends") {
-  const MadeSweep sweep(kLinear);
+  const MadeSweep sweep(refined(50, kLinear));
   // A kink at 0.4: the curvature is not zero only in the two intervals beside it.
-  const auto kink = [](const SweepPoint& point) {
+  sweep.measure([](const SweepPoint& point) {
     return Mean{std::fabs(setting(point, "particles.restitution") - 0.4), 1e-6};
-  };
-  sweep.measure(kink);
-  const std::vector<std::string> first = sweep.next();
-  REQUIRE(first.size() == 4);
-  CHECK(std::set<std::string>(first.begin(), first.begin() + 2) ==
-        std::set<std::string>{"particles.restitution=0.35", "particles.restitution=0.45"});
+  });
+  CHECK(sweep.next_two() == Texts{"particles.restitution=0.35", "particles.restitution=0.45"});
   // The choice depends on the results only.
-  CHECK(sweep.next() == first);
+  CHECK(sweep.next() == sweep.next());
   // A bend of the same second derivative counts more in a wider interval.
-  const MadeSweep uneven(R"(scene = "vibrated"
-refine = true
-budget = 50
-[axes]
-"particles.restitution" = [0.1, 0.2, 0.3, 0.5, 0.7]
-)");
+  const MadeSweep uneven(refined(50, "\"particles.restitution\" = [0.1, 0.2, 0.3, 0.5, 0.7]\n"));
   uneven.measure([](const SweepPoint& point) {
     const double x = setting(point, "particles.restitution");
     return Mean{x * x, 0.0};
   });
-  const std::vector<std::string> wide = uneven.next();
-  REQUIRE(wide.size() == 4);
-  CHECK(std::set<std::string>(wide.begin(), wide.begin() + 2) ==
-        std::set<std::string>{"particles.restitution=0.4", "particles.restitution=0.6"});
+  CHECK(uneven.next_two() == Texts{"particles.restitution=0.4", "particles.restitution=0.6"});
 }
 
 TEST_CASE("Refinement: new points of a straight line are where its errors are largest") {
-  const MadeSweep sweep(kLinear);
+  const MadeSweep sweep(refined(50, kLinear));
   sweep.measure([](const SweepPoint& point) {
     const double x = setting(point, "particles.restitution");
     return Mean{3.0 * x, x > 0.15 && x < 0.25 ? 0.2 : 0.01};
   });
-  const std::vector<std::string> next = sweep.next();
-  REQUIRE(next.size() == 4);
-  CHECK(std::set<std::string>(next.begin(), next.begin() + 2) ==
-        std::set<std::string>{"particles.restitution=0.15", "particles.restitution=0.25"});
+  CHECK(sweep.next_two() == Texts{"particles.restitution=0.15", "particles.restitution=0.25"});
 }
 
 TEST_CASE("Refinement: the middle on a logarithmic axis is the geometric mean") {
-  const MadeSweep sweep(R"(scene = "vibrated"
-refine = true
-budget = 5
-[axes]
-"walls.left.drive_speed" = { from = 0.01, to = 1.0, count = 3, scale = "log" }
-)");
+  const MadeSweep sweep(refined(
+      5, "\"walls.left.drive_speed\" = { from = 0.01, to = 1.0, count = 3, scale = \"log\" }\n"));
   // Linear in the logarithm, with the larger errors at the upper end.
   sweep.measure([](const SweepPoint& point) {
     const double x = setting(point, "walls.left.drive_speed");
@@ -155,9 +147,8 @@ TEST_CASE("Refinement: whole numbers stay whole, and no point occurs twice") {
   };
   for (const char* axis : {"[10, 13, 20]", "{ from = 10, to = 20, count = 3, scale = \"log\" }"}) {
     CAPTURE(axis);
-    const MadeSweep sweep(std::string("scene = \"vibrated\"\nrefine = true\nbudget = 50\nreplicas "
-                                      "= 2\n[axes]\n\"particles.count\" = ") +
-                          axis + '\n');
+    const MadeSweep sweep(
+        refined(50, std::string("\"particles.count\" = ") + axis + '\n', "replicas = 2\n"));
     std::vector<std::string> counts;
     for (const SweepPoint& point : sweep.finish(measured)) counts.push_back(point.front().value);
     std::ranges::sort(counts);
@@ -184,52 +175,43 @@ budget = 9
 }
 
 TEST_CASE("Refinement: the sweep ends at its budget of points, of all curves together") {
-  const auto text = [](int budget) {
-    return "scene = \"vibrated\"\nrefine = true\nreplicas = 3\nbudget = " + std::to_string(budget) +
-           "\n[axes]\n\"particles.restitution\" = [0.5, 0.6, 0.7]\n\"particles.count\" = [20, "
-           "30]\n";
+  const auto runs_of = [](int budget) {
+    const std::string axes =
+        "\"particles.restitution\" = [0.5, 0.6, 0.7]\n\"particles.count\" = [20, 30]\n";
+    return MadeSweep(refined(budget, axes, "replicas = 3\n"))
+        .finish([](const SweepPoint& point) {
+          return Mean{std::exp(setting(point, "particles.restitution")), 0.01};
+        })
+        .size();
   };
-  const auto measured = [](const SweepPoint& point) {
-    return Mean{std::exp(setting(point, "particles.restitution")), 0.01};
-  };
-  CHECK(MadeSweep(text(6)).finish(measured).size() == 3 * 6);
-  CHECK(MadeSweep(text(2)).finish(measured).size() == 3 * 6);
-  CHECK(MadeSweep(text(8)).finish(measured).size() == 3 * 8);
-  CHECK(MadeSweep(text(15)).finish(measured).size() == 3 * 15);
+  CHECK(runs_of(6) == 3 * 6);
+  CHECK(runs_of(2) == 3 * 6);
+  CHECK(runs_of(8) == 3 * 8);
+  CHECK(runs_of(15) == 3 * 15);
 }
 
 TEST_CASE("Refinement: other axes have separate curves") {
-  const MadeSweep sweep(R"(scene = "vibrated"
-refine = true
-budget = 50
-[axes]
-"particles.restitution" = [0.1, 0.2, 0.3, 0.4, 0.5]
-"particles.count" = [20, 30]
-)");
+  const MadeSweep sweep(refined(50,
+                                "\"particles.restitution\" = [0.1, 0.2, 0.3, 0.4, 0.5]\n"
+                                "\"particles.count\" = [20, 30]\n"));
   // Two straight lines of different height are no kinks. One of them has a kink at 0.4.
   sweep.measure([](const SweepPoint& point) {
     const double x = setting(point, "particles.restitution");
     return setting(point, "particles.count") == 20.0 ? Mean{5.0 + x, 1e-6}
                                                      : Mean{std::fabs(x - 0.4), 1e-6};
   });
-  const std::vector<std::string> next = sweep.next();
-  REQUIRE(next.size() == 4);
-  CHECK(std::set<std::string>(next.begin(), next.begin() + 2) ==
-        std::set<std::string>{"particles.restitution=0.35 particles.count=30",
-                              "particles.restitution=0.45 particles.count=30"});
+  CHECK(sweep.next_two() == Texts{"particles.restitution=0.35 particles.count=30",
+                                  "particles.restitution=0.45 particles.count=30"});
 }
 
 TEST_CASE("Refinement: the first axis of the file is refined, in any order of the manifest") {
-  const std::string head = "scene = \"vibrated\"\nrefine = true\nbudget = 7\n[axes]\n";
   const std::string restitutions = "\"particles.restitution\" = [0.1, 0.2, 0.3]\n";
-  const std::string counts = "\"particles.count\" = [20, 30]\n";
   const TemporaryFolder temporary;
-  SweepFolder::make(head + restitutions + counts, "s.toml", temporary / "d");
+  SweepFolder::make(refined(7, restitutions + "\"particles.count\" = [20, 30]\n"), "s.toml",
+                    temporary / "d");
   // A longer file with the other order continues the same sweep.
-  const std::string longer = head + "\"particles.count\" = [20, 30, 40]\n" + restitutions;
   const SweepFolder folder =
-      SweepFolder::make("budget = 10\n" + longer.substr(0, longer.find("budget")) +
-                            longer.substr(longer.find("[axes]")),
+      SweepFolder::make(refined(10, "\"particles.count\" = [20, 30, 40]\n" + restitutions),
                         "s.toml", temporary / "d");
   REQUIRE(folder.runs().size() == 9);
   for (const SweepRun& run : folder.runs()) {
@@ -237,13 +219,7 @@ TEST_CASE("Refinement: the first axis of the file is refined, in any order of th
     const double count = setting(run.settings, "particles.count");
     const double restitution = setting(run.settings, "particles.restitution");
     const bool uncertain = count > 25.0 && restitution > 0.25;
-    const json result = {
-        {"program", "clatter"},
-        {"seed", run.seed},
-        {"state_hash", "0"},
-        {"time", {{"measured", 1.0}}},
-        {"temperature", {{"mean", count}, {"standard_error", uncertain ? 1.0 : 0.1}}}};
-    testing::write_bytes(folder.result(run.id), result.dump());
+    write_result(folder, run, {count, uncertain ? 1.0 : 0.1});
   }
   const auto points = refined_points(folder, folder.sweep());
   REQUIRE(points.size() == 1);
@@ -253,12 +229,7 @@ TEST_CASE("Refinement: the first axis of the file is refined, in any order of th
 }
 
 TEST_CASE("Refinement: a point without the mean of the goal is omitted and listed") {
-  const MadeSweep sweep(R"(scene = "vibrated"
-refine = true
-budget = 9
-[axes]
-"particles.restitution" = [0.1, 0.2, 0.3, 0.4]
-)");
+  const MadeSweep sweep(refined(9, "\"particles.restitution\" = [0.1, 0.2, 0.3, 0.4]\n"));
   sweep.measure([](const SweepPoint&) { return Mean{1.0, 0.1}; });
   // As a result of a cooled gas, without a temperature.
   const auto file = sweep.folder().result(2);
@@ -273,17 +244,10 @@ budget = 9
 }
 
 TEST_CASE("Refinement: results without the mean of the goal are refused") {
-  const MadeSweep sweep(R"(scene = "vibrated"
-accuracy = "5%"
-accuracy_of = "pressure.left"
-refine = true
-budget = 9
-[axes]
-"particles.restitution" = [0.5, 0.6, 0.7]
-)");
+  const MadeSweep sweep(refined(9, "\"particles.restitution\" = [0.5, 0.6, 0.7]\n",
+                                "accuracy = \"5%\"\naccuracy_of = \"pressure.left\"\n"));
   sweep.measure([](const SweepPoint&) { return Mean{1.0, 0.1}; });
-  CHECK(refusal_of([&] { sweep.next(); }) ==
-        "accuracy_of: the results have no mean 'pressure.left'; name a mean of the result file");
+  CHECK(says(refusal_of([&] { sweep.next(); }), "no mean 'pressure.left'"));
 }
 
 TEST_CASE("Refinement: the points do not depend on the number of threads or on interrupts") {

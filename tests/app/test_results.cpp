@@ -112,30 +112,11 @@ void take_out_rounding(json& result) {
 
 TEST_CASE("Results: a list of plain values is on one line, and the text has the same value") {
   const nlohmann::ordered_json result = {{"title", "a \"b\" ü"},
-                                         {"edges", {0.0, 0.5, 1e-300}},
                                          {"empty", json::array()},
-                                         {"none", json::object()},
-                                         {"profile", {{"axis", "x"}, {"density", {0.1, nullptr}}}},
+                                         {"profile", {{"density", {0.0, 1e-300, nullptr}}}},
                                          {"results", {{{"seed", 1}}, {{"seed", 2}}}}};
   const std::string text = json_text(result);
-  CHECK(text == R"({
- "title": "a \"b\" ü",
- "edges": [0.0,0.5,1e-300],
- "empty": [],
- "none": {},
- "profile": {
-  "axis": "x",
-  "density": [0.1,null]
- },
- "results": [
-  {
-   "seed": 1
-  },
-  {
-   "seed": 2
-  }
- ]
-})");
+  CHECK(says(text, "\"density\": [0.0,1e-300,null]\n"));
   CHECK(nlohmann::ordered_json::parse(text) == result);
   const Shell shell;
   REQUIRE(shell.run("clatter measure vibrated --until 20 --out a.json").code == 0);
@@ -145,29 +126,20 @@ TEST_CASE("Results: a list of plain values is on one line, and the text has the 
   CHECK(json_text(parsed) + '\n' == written);
 }
 
-TEST_CASE("Results: every value of a walled gas follows from its events") {
+TEST_CASE("Results: every value of a walled or a periodic gas follows from its events") {
   for (const int dimension : {2, 3}) {
-    CAPTURE(dimension);
-    with_dimension(dimension, []<int D>(std::integral_constant<int, D>) {
-      const Witnessed<D> run(uneven_scene<D>());
-      json result = run.result();
-      take_out_rounding(result);
-      json expected = totals_json(run);
-      expected["profile"] = profile_of<D>(run.cell_sums(), run.windows, 0);
-      check_same(result, expected);
-    });
-  }
-}
-
-TEST_CASE("Results: every value of a periodic gas follows from its events") {
-  for (const int dimension : {2, 3}) {
-    CAPTURE(dimension);
-    with_dimension(dimension, []<int D>(std::integral_constant<int, D>) {
-      const Witnessed<D> run(periodic_scene<D>());
-      json result = run.result();
-      take_out_rounding(result);
-      check_same(result, totals_json(run));
-    });
+    for (const bool walled : {true, false}) {
+      CAPTURE(dimension);
+      CAPTURE(walled);
+      with_dimension(dimension, [&]<int D>(std::integral_constant<int, D>) {
+        const Witnessed<D> run(walled ? uneven_scene<D>() : periodic_scene<D>());
+        json result = run.result();
+        take_out_rounding(result);
+        json expected = totals_json(run);
+        if (walled) expected["profile"] = profile_of<D>(run.cell_sums(), run.windows, 0);
+        check_same(result, expected);
+      });
+    }
   }
 }
 

@@ -94,14 +94,4 @@ TEST_CASE("Studies: dissipation spans three decades, and each point starts at it
   }
 }
 
-TEST_CASE("Studies: each study has its charts") {
-  const auto names = [](const Study& study) {
-    std::vector<std::string> list;
-    for (const StudyChart& chart : study.charts) list.push_back(chart.name);
-    return list;
-  };
-  CHECK(names(temperature_study(2)) == std::vector<std::string>{"temperature", "ratio"});
-  CHECK(names(rough_study(3)) == std::vector<std::string>{"ratio"});
-}
-
 }  // namespace clatter

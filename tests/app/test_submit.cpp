@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <iterator>
 #include <sstream>
 
 #include "app/sweep/submit.h"
@@ -29,47 +30,26 @@ void end_most_runs(const SweepFolder& folder) {
   folder.fail(7, {kPhysicalStop, "particles overlapped"});
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
+// The text between two others; empty if the first is absent.
+std::string between(const std::string& text, const std::string& from, const std::string& to) {
+  const std::size_t begin = text.find(from);
+  if (begin == std::string::npos) return "";
+  return text.substr(begin + from.size(), text.find(to, begin + from.size()) - begin - from.size());
 }
 
 // The chunks in the batch script.
 std::vector<std::string> chunks_in(const std::string& script) {
-  std::vector<std::string> chunks;
-  bool inside = false;
-  for (const std::string& line : lines_of(script)) {
-    if (line == ")") break;
-    if (inside) chunks.push_back(line.substr(2));
-    if (line == "tasks=(") inside = true;
-  }
-  return chunks;
+  std::istringstream words(between(script, "tasks=(\n", ")"));
+  return {std::istream_iterator<std::string>(words), {}};
 }
 
 // The value of an option such as --mem.
 std::string option_in(const std::string& script, const std::string& name) {
-  const std::string start = "#SBATCH --" + name + '=';
-  for (const std::string& line : lines_of(script)) {
-    if (line.starts_with(start)) return line.substr(start.size());
-  }
-  return "";
+  return between(script, "#SBATCH --" + name + '=', "\n");
 }
 
 std::string script_of(const SweepFolder& folder, int chunk = 0, const TaskLimits& limits = {}) {
   return testing::bytes_of(write_batch_script(folder, chunk, limits));
-}
-
-// The arguments of the printed command line, read by a shell, one a line.
-std::string arguments_of(const Shell& shell, const std::string& folder,
-                         const std::string& function) {
-  const Outcome outcome =
-      shell.run("clatter sweep submit " + folder + " --parallel --chunk 4 >line.sh && " + function +
-                " && . ./line.sh");
-  CAPTURE(outcome.err);
-  CHECK(outcome.code == 0);
-  return outcome.out;
 }
 
 }  // namespace
@@ -79,18 +59,18 @@ TEST_CASE("Submit: tasks contain each run without result once") {
   const SweepFolder folder = SweepFolder::make(kNineRuns, "s.toml", temporary / "d");
   const std::string start =
       "parallel clatter sweep run ''\\''" + (temporary / "d").string() + "'\\''' ::: ";
-  CHECK(parallel_line(folder, 0) == start + "1 2 3 4 5 6 7 8 9\n");
-  CHECK(parallel_line(folder, 4) == start + "1-4 5-8 9\n");
-  CHECK(parallel_line(folder, 9) == start + "1-9\n");
-  CHECK(parallel_line(folder, 100) == start + "1-9\n");
-  CHECK(chunks_in(script_of(folder, 4)) == std::vector<std::string>{"1-4", "5-8", "9"});
+  for (const auto& [chunk, tasks] :
+       {std::pair{0, "1 2 3 4 5 6 7 8 9\n"}, std::pair{4, "1-4 5-8 9\n"}, std::pair{9, "1-9\n"},
+        std::pair{100, "1-9\n"}}) {
+    CHECK(parallel_line(folder, chunk) == start + tasks);
+  }
 
   // A physical stop would occur again. Other failures are repeated.
   end_most_runs(folder);
-  CHECK(parallel_line(folder, 1) == start + "2 3 5 8 9\n");
-  CHECK(parallel_line(folder, 2) == start + "2-3 5,8 9\n");
-  CHECK(parallel_line(folder, 3) == start + "2-3,5 8-9\n");
-  CHECK(parallel_line(folder, 7) == start + "2-3,5,8-9\n");
+  for (const auto& [chunk, tasks] : {std::pair{1, "2 3 5 8 9\n"}, std::pair{2, "2-3 5,8 9\n"},
+                                     std::pair{3, "2-3,5 8-9\n"}, std::pair{7, "2-3,5,8-9\n"}}) {
+    CHECK(parallel_line(folder, chunk) == start + tasks);
+  }
   const std::string script = script_of(folder, 2);
   CHECK(chunks_in(script) == std::vector<std::string>{"2-3", "5,8", "9"});
   CHECK(option_in(script, "array") == "1-3");
@@ -116,13 +96,13 @@ TEST_CASE("Submit: a large sweep has at most 1000 tasks on a cluster") {
 TEST_CASE("Submit: the options of the script are those of the user") {
   const TemporaryFolder temporary;
   const SweepFolder folder = SweepFolder::make(kNineRuns, "s.toml", temporary / "d");
-  const std::string plain = script_of(folder);
-  CHECK(option_in(plain, "time") == "");
-  CHECK(option_in(plain, "partition") == "");
-  CHECK(option_in(plain, "output") == '"' + (temporary / "d/slurm/%a.log").string() + '"');
-  const std::string script = script_of(folder, 0, {.time = "1:30:00", .partition = "long"});
-  CHECK(option_in(script, "time") == "1:30:00");
-  CHECK(option_in(script, "partition") == "long");
+  for (const TaskLimits& limits :
+       {TaskLimits{}, TaskLimits{.time = "1:30:00", .partition = "long"}}) {
+    const std::string script = script_of(folder, 0, limits);
+    CHECK(option_in(script, "time") == limits.time);
+    CHECK(option_in(script, "partition") == limits.partition);
+    CHECK(option_in(script, "output") == '"' + (temporary / "d/slurm/%a.log").string() + '"');
+  }
 }
 
 TEST_CASE("Submit: the memory request grows with the number of particles") {
@@ -157,16 +137,16 @@ TEST_CASE("Submit: a shell reads the line for GNU parallel as one folder and the
     shell.write("s.toml", kNineRuns);
     SweepFolder::make(kNineRuns, "s.toml", shell.path(folder));
     shell.write("name", folder);
-    const std::string out = arguments_of(shell, "\"$(cat name)\"", parallel);
+    const Outcome outcome =
+        shell.run("clatter sweep submit \"$(cat name)\" --parallel --chunk 4 >line.sh && " +
+                  parallel + " && . ./line.sh");
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 0);
     std::string expected;
     for (const char* task : {"1-4", "5-8", "9"}) {
-      expected += "clatter\nsweep\nrun\n";
-      expected += folder;
-      expected += '\n';
-      expected += task;
-      expected += '\n';
+      expected += "clatter\nsweep\nrun\n" + folder + '\n' + task + '\n';
     }
-    CHECK(out == expected);
+    CHECK(outcome.out == expected);
   }
 }
 
@@ -180,7 +160,7 @@ TEST_CASE("Submit: the batch script is valid, and runs the chunk of its task") {
 [axes]
 "particles.count" = [10, 20, 30]
 )");
-  const std::string folder = "\"it's a b\"";
+  const std::string folder = "\"it's %a b\"";
   REQUIRE(shell.run("clatter sweep s.toml --prepare --out " + folder).code == 0);
   // --dry-run does not start sbatch.
   const Outcome dry = shell.run(
@@ -190,9 +170,10 @@ TEST_CASE("Submit: the batch script is valid, and runs the chunk of its task") {
       folder + " --slurm --chunk 2 --dry-run");
   CAPTURE(dry.err);
   CHECK(dry.code == 0);
-  const std::string script = shell.path("it's a b/slurm/job.sh");
+  const std::string script = shell.path("it's %a b/slurm/job.sh");
   CHECK(dry.out == script + '\n');
   CHECK_FALSE(std::filesystem::exists(shell.path("submitted")));
+  CHECK(says(testing::bytes_of(script), "/it's %%a b/slurm/%a.log\"\n"));
   const Outcome syntax = shell.run("bash -n " + folder + "/slurm/job.sh");
   CHECK_MESSAGE(syntax.code == 0, syntax.err);
   // Task 2 measures the third run.
@@ -241,19 +222,21 @@ TEST_CASE("Submit: wrong flags are refused") {
   const Shell shell;
   shell.write("s.toml", kNineRuns);
   REQUIRE(shell.run("clatter sweep s.toml --out d --prepare").code == 0);
-  const std::string submit = "clatter sweep submit d";
-  check_refused(shell, submit, {"submit: no scheduler is given; add --slurm or --parallel"});
-  check_refused(shell, submit + " --slurm --parallel", {"--slurm excludes --parallel"});
-  check_refused(shell, submit + " --parallel --time 1:00", {"--time requires --slurm"});
-  check_refused(shell, submit + " --parallel --partition x", {"--partition requires --slurm"});
-  check_refused(shell, submit + " --parallel --dry-run", {"--dry-run requires --slurm"});
-  check_refused(shell, submit + " --slurm --chunk 0",
-                {"--chunk: '0' is wrong; give a whole number between 1 and 100000"});
-  check_refused(shell, "clatter sweep submit none --parallel",
-                {"none: this is not the folder of a sweep"});
-  REQUIRE(shell.run("clatter sweep s.toml --out 'a{}b' --prepare").code == 0);
-  check_refused(shell, "clatter sweep submit 'a{}b' --parallel",
-                {"a{}b: GNU parallel replaces braces in the name of this folder; rename it"});
+  for (const std::string folder : {"'a{}b'", "'a\"b'"}) {
+    REQUIRE(shell.run("clatter sweep s.toml --prepare --out " + folder).code == 0);
+  }
+  for (const auto& [flags, words] : std::vector<std::pair<std::string, std::string>>{
+           {"d", "add --slurm or --parallel"},
+           {"d --slurm --parallel", "--slurm excludes --parallel"},
+           {"d --parallel --time 1:00", "--time requires --slurm"},
+           {"d --parallel --partition x", "--partition requires --slurm"},
+           {"d --parallel --dry-run", "--dry-run requires --slurm"},
+           {"d --slurm --chunk 0", "--chunk: '0' is wrong"},
+           {"none --parallel", "none: this is not the folder of a sweep"},
+           {"'a\"b' --slurm --dry-run", "a batch script cannot name this folder"},
+           {"'a{}b' --parallel", "a{}b: GNU parallel replaces braces"}}) {
+    check_refused(shell, "clatter sweep submit " + flags, {words});
+  }
   // sbatch is not installed.
   const Outcome none = shell.run("c=$(command -v clatter); PATH=/none $c sweep submit d --slurm");
   CHECK(none.code == 1);

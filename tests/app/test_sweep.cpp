@@ -184,19 +184,16 @@ TEST_CASE("Sweep: more values add runs, and all other changes are refused") {
   CHECK(says(shell.run("clatter sweep s.toml --out d").err, "24 runs: 24 with result"));
 
   const std::string text = shell.read("s.toml");
-  const auto refused = [&](const std::string& change, const std::string& message) {
+  for (const auto& [change, words] : std::vector<std::pair<std::string, std::string>>{
+           {"sed -i 's/= \"y\"/= \"x\"/' s.toml", "other settings in [set]"},
+           {"sed -i 's/\\[set\\]/until = 9\\n[set]/' s.toml", "another 'until'"},
+           {"sed -i 's/\\[set\\]/accuracy = \"5%\"\\n[set]/' s.toml", "another 'accuracy'"},
+           {"echo '\"particles.count\" = [5]' >> s.toml", "other axes"},
+           {"sed -i 's/count = 8/count = 9/' a.toml", "another scene"}}) {
     shell.write("s.toml", text);
     REQUIRE(shell.run(change).code == 0);
-    const Outcome outcome = shell.run("clatter sweep s.toml --out d");
-    CHECK(outcome.code == 2);
-    CHECK_MESSAGE(says(outcome.err, message), outcome.err);
-  };
-  refused("sed -i 's/= \"y\"/= \"x\"/' s.toml", "s.toml: d has runs with other settings in [set]");
-  refused("sed -i 's/\\[set\\]/until = 9\\n[set]/' s.toml", "d has runs with another 'until'");
-  refused("sed -i 's/\\[set\\]/accuracy = \"5%\"\\n[set]/' s.toml",
-          "d has runs with another 'accuracy'");
-  refused("echo '\"particles.count\" = [5]' >> s.toml", "d has runs with other axes");
-  refused("sed -i 's/count = 8/count = 9/' a.toml", "d has runs with another scene");
+    check_refused(shell, "clatter sweep s.toml --out d", {"d has runs with " + words});
+  }
 }
 
 TEST_CASE("Sweep: a seed that is added with the axes in another order belongs to the same points") {
@@ -212,35 +209,12 @@ TEST_CASE("Sweep: a seed that is added with the axes in another order belongs to
         std::vector<std::string>{"4", "4", "4", "4"});
 }
 
-TEST_CASE("Sweep: a chart without points is refused, and series are the values of one column") {
-  const Shell shell;
-  write_sweep(shell);
-  const auto refused = [&](const std::string& flags, const std::string& message) {
-    const Outcome outcome = shell.run("clatter sweep plot d --out c.svg --x replicas " + flags);
-    CHECK(outcome.code == 2);
-    CHECK_MESSAGE(says(outcome.err, message), outcome.err);
-    CHECK(shell.run("ls c.svg").code != 0);
-  };
-  REQUIRE(shell.run("clatter sweep s.toml --out d --prepare").code == 0);
-  refused("--y temperature", "d: the sweep has no results; measure it with");
-  REQUIRE(shell.run("clatter sweep s.toml --out d").code == 0);
-  refused("--y temperature --by 'replicas*2'", "--by: the table has no column 'replicas*2'");
-  const std::string empty = "d: the chart has no points; give columns of numbers";
-  refused("--y program", empty);
-  refused("--y temperature/0", empty);
-  refused("--y 0*temperature --log", empty);
-  CHECK(shell.run("clatter sweep plot d --out c.svg --x replicas --y temperature").code == 0);
-}
-
 TEST_CASE("Sweep: the scene is beside the sweep file or in the gallery") {
   const Shell shell;
   write_sweep(shell);
   shell.run("mkdir in; mv s.toml in");
-  const Outcome elsewhere = shell.run("clatter sweep in/s.toml --out d");
-  CHECK(elsewhere.code == 2);
-  CHECK(says(elsewhere.err,
-             "in/s.toml: the scene 'a.toml' is not in the folder of this file; give "
-             "its path from there"));
+  check_refused(shell, "clatter sweep in/s.toml --out d",
+                {"in/s.toml: the scene 'a.toml' is not in the folder of this file"});
   for (const std::string name : {"", "nothing"}) {
     shell.write("other.toml", "scene = \"" + name + "\"\n");
     check_refused(shell, "clatter sweep other.toml --out d",
@@ -260,15 +234,13 @@ TEST_CASE("Sweep: a single run is measured by hand, once") {
   const std::string time = shell.run("stat -c %Y.%i d/results/2.json").out;
   CHECK(shell.run("clatter sweep run d 2").code == 0);
   CHECK(shell.run("stat -c %Y.%i d/results/2.json").out == time);
-  const Outcome wrong = shell.run("clatter sweep run d 13");
-  CHECK(wrong.code == 2);
-  CHECK(says(wrong.err, "d: there is no run 13; give a number from 1 to 12"));
-  CHECK(says(shell.run("clatter sweep run d 5-3").err, "ID: '5-3' is no run; give numbers"));
-  CHECK(says(shell.run("clatter sweep run d ''").err, "ID: '' is no run; give numbers"));
+  const std::string run = "clatter sweep run d ";
+  check_refused(shell, run + "13", {"d: there is no run 13; give a number from 1 to 12"});
+  check_refused(shell, run + "5-3", {"ID: '5-3' is no run"});
+  check_refused(shell, run + "''", {"ID: '' is no run"});
   // A long list of numbers costs no memory.
   const std::string limit = is_sanitized() ? "" : "ulimit -v 1000000; ";
-  CHECK(says(shell.run(limit + "clatter sweep run d 12-2147483647").err,
-             "there is no run 13; give a number from 1 to 12"));
+  check_refused(shell, limit + run + "12-2147483647", {"there is no run 13"});
 }
 
 }  // namespace clatter

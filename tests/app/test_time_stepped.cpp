@@ -4,7 +4,6 @@
 
 #include <numeric>
 
-#include "app/bench/run_result.h"
 #include "app/bench/time_stepped.h"
 #include "engine/physics/walls.h"
 #include "engine/run/scheduled_run.h"
@@ -85,40 +84,6 @@ TEST_CASE("Time-stepped gas: each wall has its own restitution, and a driven one
   right.run(0.1);
   CHECK(right.sums().wall_impulse == doctest::Approx(1.6));
   CHECK(right.sums().squares == doctest::Approx(0.1 * (0.6 * 0.6 + 0.5 * 0.5)));
-}
-
-TEST_CASE("Time-stepped gas: its results are the sums per time and area") {
-  Scene scene = walled_scene();
-  scene.box = Vec2(10.0, 8.0);
-  scene.particles.count = 20;
-  scene.particles.restitution = 0.9;
-  scene.measure.cells = {30, 1};
-  const RunResult found = observe_stepped(scene, 0.01, {.burn_in = 5.0, .duration = 20.0}, 3);
-
-  const auto exact = simulation_of<2>(scene, 3);
-  exact->run_until(5.0);
-  TimeStepped gas(scene, exact->state(), 0.01, 30);
-  gas.run(4.0);
-  gas.restart_sums();
-  gas.run(20.0);
-  const SteppedSums& sums = gas.sums();
-  const auto collisions = static_cast<double>(sums.collisions);
-  CHECK(found.time == doctest::Approx(20.0));
-  CHECK(found.cpu_seconds > 0.0);
-  CHECK(found.cpu_seconds < 10.0);
-  CHECK(found.events == collisions);
-  CHECK(found.bytes == gas.bytes());
-  CHECK(found.collision_rate == doctest::Approx(2.0 * collisions / 20.0 / 20.0));
-  CHECK(found.deepest_overlap == sums.deepest_overlap);
-  CHECK(found.means[kTemperature] == doctest::Approx(sums.squares / 2.0 / 20.0 / 20.0));
-  CHECK(found.means[kPressure] == doctest::Approx(sums.wall_impulse / 16.0 / 20.0));
-  CHECK(found.means[kStress] == doctest::Approx(sums.stress / 80.0 / 20.0));
-  CHECK(found.means[kDissipation] == doctest::Approx(-sums.dissipated / 80.0 / 20.0));
-  for (std::size_t k = 0; k < 60; ++k) {
-    const double column = 80.0 / 30.0 * 20.0;
-    CHECK(found.density[k] == doctest::Approx(sums.particles[k / 2] / column));
-    CHECK(found.heat_flux[k] == doctest::Approx(sums.heat_carried[k / 2] / column));
-  }
 }
 
 }  // namespace clatter

@@ -1,21 +1,15 @@
 #pragma once
 
-#include <doctest/doctest.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 
 #include "engine/physics/collision.h"
 #include "engine/physics/random.h"
+#include "tests/support/dimensions.h"
 
 namespace clatter::testing {
-
-/// Dimensions of templated cases.
-using Plane = std::integral_constant<int, 2>;
-using Space = std::integral_constant<int, 3>;
 
 template <class Vector>
 Vector random_vector(Random& random) {
@@ -63,6 +57,3 @@ Vec<D> friction_by_law(const Vec<D>& n, const Vec<D>& surface_velocity, double n
 }
 
 }  // namespace clatter::testing
-
-TYPE_TO_STRING_AS("2D", clatter::testing::Plane);
-TYPE_TO_STRING_AS("3D", clatter::testing::Space);

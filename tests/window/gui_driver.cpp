@@ -160,25 +160,6 @@ bool GuiDriver::corner_becomes(const std::vector<int>& colour) const {
   return false;
 }
 
-double GuiDriver::brightness(const std::string& widget) const {
-  const std::vector<double> where = place(widget);
-  const auto pixels = [&](int i) { return std::to_string(std::lround(where[i])); };
-  const Outcome outcome =
-      run("ffmpeg -v error -y -f x11grab -draw_mouse 0 -video_size " + pixels(2) + 'x' + pixels(3) +
-          " -i $DISPLAY+" + pixels(0) + ',' + pixels(1) +
-          " -frames:v 1 -pix_fmt gray -f rawvideo grabbed </dev/null");
-  REQUIRE(outcome.code == 0);
-  double sum = 0.0;
-  const std::string grabbed = shell_.read("grabbed");
-  unsigned char darkest = 255;
-  for (const char pixel : grabbed) {
-    const auto bright = static_cast<unsigned char>(pixel);
-    darkest = std::min(darkest, bright);
-    sum += bright;
-  }
-  return sum / static_cast<double>(grabbed.size()) - darkest;
-}
-
 int GuiDriver::exit_code() const {
   const Outcome outcome =
       shell_.run("for i in $(seq 100); do [ -s code ] && cat code && exit; sleep 0.05; done");

@@ -51,8 +51,6 @@ class GuiDriver {
   /// Whether the upper left corner of the viewport gets a colour within some pictures: the log is
   /// ahead of the screen by a picture.
   bool corner_becomes(const std::vector<int>& colour) const;
-  /// The mean excess of brightness over the darkest pixel of a widget, 0..255.
-  double brightness(const std::string& widget) const;
   /// The exit code of the program; -1 if it has not ended within some seconds.
   int exit_code() const;
   const Shell& shell() const { return shell_; }

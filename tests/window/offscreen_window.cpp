@@ -157,13 +157,10 @@ std::string OffscreenWindow::tooltip(const std::string& widget) {
   return text("##Tooltip");
 }
 
-void OffscreenWindow::check_help(
-    const std::vector<std::pair<std::string, std::string>>& words_of_widgets) {
-  for (const auto& [widget, words] : words_of_widgets) {
-    const std::string found = tooltip(widget);
+void OffscreenWindow::check_explained(const std::vector<std::string>& widgets) {
+  for (const std::string& widget : widgets) {
     CAPTURE(widget);
-    CAPTURE(found);
-    CHECK(testing::says(found, words));
+    CHECK_FALSE(tooltip(widget).empty());
   }
 }
 

@@ -117,6 +117,18 @@ void check_help(PanelDriver& driver,
   }
 }
 
+void check_explained(PanelDriver& driver, const std::vector<std::string>& widgets) {
+  for (const std::string& widget : widgets) {
+    const auto [x, y, width, height] = driver.place(widget);
+    CAPTURE(widget);
+    driver.point_at(0.0f, 0.0f);
+    const std::string plain = text_of(driver);
+    driver.point_at(x + 0.5f * height, y + 0.5f * height);
+    // A tooltip is the end of the text: what is drawn after it is not read.
+    CHECK_FALSE(plain.starts_with(text_of(driver)));
+  }
+}
+
 void check_lines(const std::vector<std::string>& lines, const std::vector<std::string>& expected) {
   for (std::size_t k = 0; k < std::min(lines.size(), expected.size()); ++k) {
     CHECK(lines[k] == expected[k]);

@@ -36,6 +36,8 @@ void tick(PanelDriver& driver, const std::string& key);
 /// Points at widgets, and checks that each has a tooltip with these words.
 void check_help(PanelDriver& driver,
                 const std::vector<std::pair<std::string, std::string>>& words_of_widgets);
+/// Points at widgets, and checks that each has a tooltip.
+void check_explained(PanelDriver& driver, const std::vector<std::string>& widgets);
 /// Checks that the lines are equal.
 void check_lines(const std::vector<std::string>& lines, const std::vector<std::string>& expected);
 

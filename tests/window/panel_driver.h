@@ -36,6 +36,7 @@ class PanelDriver {
   /// Takes frames of the engine until the condition holds.
   void wait_for(const std::function<bool(const Frame&)>& holds);
 
+  Session& session() { return session_; }
   const Session& session() const { return session_; }
 
  private:

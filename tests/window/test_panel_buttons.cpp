@@ -1,6 +1,7 @@
 // The buttons of the window: each has its own action. The tooltip of the timeline.
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_internal.h>
 
@@ -29,8 +30,6 @@ TEST_CASE("Buttons: those of the record panel ask for what they are named after"
     tick(driver, button);
     return asked;
   };
-  check_lines(driver.lines(), {"### Record ###", "[ Screenshot ]", "[ Save scene ]",
-                               "[ Restore scene ]", "[ Film... ]"});
   CHECK(asks("screenshot") == Recording::Screenshot);
   CHECK(asks("save") == Recording::SaveScene);
   CHECK(asks("restore") == Recording::RestoreScene);
@@ -41,9 +40,6 @@ TEST_CASE("Buttons: those of the record panel ask for what they are named after"
 
   films = Films::OfScreen;
   filmed.reset();
-  driver.point_at(0.0f, 3000.0f);
-  check_lines(driver.lines(), {"### Record ###", "[ Screenshot ]", "[ Save scene ]",
-                               "[ Restore scene ]", "[ Film ]", "[ Copy link ]"});
   CHECK(asks("film") == Recording::FilmScreen);
   CHECK(asks("link") == Recording::CopyLink);
   filmed = 12.0;
@@ -53,8 +49,7 @@ TEST_CASE("Buttons: those of the record panel ask for what they are named after"
   films = Films::None;
   filmed.reset();
   driver.point_at(0.0f, 3000.0f);
-  check_lines(driver.lines(), {"### Record ###", "[ Screenshot ]", "[ Save scene ]",
-                               "[ Restore scene ]", "[ Copy link ]"});
+  CHECK_FALSE(says(text_of(driver), "Film"));
 }
 
 TEST_CASE("Buttons: the speed has steps of 1, 2, 5") {
@@ -92,6 +87,8 @@ TEST_CASE("Buttons: those of the top bar move the gas, change its speed and open
   driver.wait_for([](const Frame& now) { return now.snapshot.time > 0.0; });
   CHECK(frame().snapshot.time == doctest::Approx(speed / 60.0));
   CHECK_FALSE(frame().partners);
+  driver.point_at(0.0f, 3000.0f);  // away from buttons, whose help would be the last text
+  CHECK(says(text_of(driver), fmt::format("t = {:.2f}", frame().snapshot.time)));
   const std::uint64_t collisions = frame().snapshot.collisions;
   tick(driver, "collision");
   driver.wait_for([](const Frame& now) { return now.partners.has_value(); });
@@ -136,11 +133,10 @@ TEST_CASE("Buttons: those of a comparison add, select and remove a gas") {
     compare_panel(session, controls, session.gases() > 1 ? all : std::vector<std::string>());
   });
   driver.wait_for([](const Frame& now) { return now.run == 1; });
-  check_lines(driver.lines(), {"### Compare ###", "[ Add a copy ]"});
+  CHECK_FALSE(says(text_of(driver), "Remove"));
   tick(driver, "compare.add");
   driver.wait_for([](const Frame& now) { return now.others.size() == 1 && now.gas == 1; });
-  check_lines(driver.lines(),
-              {"### Compare ###", "Gas", "{ B: second }", "[ Add a copy ]", "[ Remove this gas ]"});
+  CHECK(says(text_of(driver), "Gas { B: second }"));
   choose(driver, "compare.gas", "A: first");
   driver.wait_for([](const Frame& now) { return now.gas == 0; });
   CHECK(driver.session().gas() == 0);
@@ -161,19 +157,17 @@ TEST_CASE("Buttons: the tooltip of a mark at the end of the timeline is within t
   const testing::TemporaryFolder folder;
   ScriptLog log(folder / "timeline");
   Timeline timeline;
-  Session* session = nullptr;
   ImVec2 low, high;
-  PanelDriver driver(scene, [&](Session& of, Controls& controls) {
-    session = &of;
-    if (!of.frame().scene) return;
-    timeline.draw(of, controls, log, {{0.0f, 0.0f}, {900.0f, 3000.0f}});
+  PanelDriver driver(scene, [&](Session& session, Controls& controls) {
+    if (!session.frame().scene) return;
+    timeline.draw(session, controls, log, {{0.0f, 0.0f}, {900.0f, 3000.0f}});
     ImGui::BringWindowToDisplayFront(ImGui::FindWindowByName("timeline"));
     if (const ImGuiWindow* tip = ImGui::FindWindowByName("##Tooltip_00")) {
       low = tip->Pos;
       high = {tip->Pos.x + tip->Size.x, tip->Pos.y + tip->Size.y};
     }
   });
-  session->play_until(0.5001);
+  driver.session().play_until(0.5001);
   driver.wait_for([](const Frame& now) { return !now.plays && now.head > 0.5; });
   driver.lines();
   const auto [x, y, width, height] = driver.place("head");

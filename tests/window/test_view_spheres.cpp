@@ -121,36 +121,13 @@ bool turned(const json& event, double azimuth, double elevation) {
          std::fabs(event["elevation"].get<double>() - elevation) < 1e-9;
 }
 
-// The pixels of a PNG file in shades of grey.
-std::string grey(const Shell& shell, const std::string& file) {
-  const Outcome outcome =
-      shell.run("ffmpeg -v error -i " + file + " -pix_fmt gray -f rawvideo - </dev/null");
-  CAPTURE(outcome.err);
-  REQUIRE(outcome.code == 0);
-  return outcome.out;
-}
-
 }  // namespace
 
 TEST_SUITE_BEGIN("display");
 
-TEST_CASE("Window: spheres play, halt, and step to a collision that marks its pair") {
-  const Scenes scenes;
-  const GuiDriver driver(scenes.gas());
-  const json status = driver.wait_for("status");
-  CHECK(status["box"] == json({9.0, 8.0, 7.0}));
-  CHECK(status["particles"] == 100);
-  std::size_t told = driver.told();
-  driver.click("collision");
-  const json hit =
-      driver.wait_for("status", told, [](const json& now) { return now.contains("partners"); });
-  CHECK(hit["partners"][0] != hit["partners"][1]);
-  CHECK(hit["partners"][0] < 100);
-}
-
 // By hand: along each direction the nearer sphere of the row is in front of the other. From behind
 // it is the other one.
-TEST_CASE("Window: a click picks the sphere in front, from each direction") {
+TEST_CASE("Window: a click picks the sphere in front, from each direction and after a move") {
   const Scenes scenes;
   const GuiDriver driver(scenes.rows());
   CHECK(picked_in_the_middle(driver) == 0);
@@ -166,6 +143,16 @@ TEST_CASE("Window: a click picks the sphere in front, from each direction") {
   driver.wait_for("turn", told);
   wait_for_picture(driver, told);
   CHECK(picked_in_the_middle(driver) == 1);
+  // A drag with Shift moves the view: another sphere, or none, is then in the middle.
+  look_from(driver, "z");
+  told = driver.told();
+  driver.tool("keydown shift");
+  driver.pull("viewport", 60, 0);
+  driver.tool("keyup shift");
+  wait_for_picture(driver, told);
+  CHECK(picked_in_the_middle(driver).is_null());
+  look_from(driver, "f");
+  CHECK(picked_in_the_middle(driver) == 0);
   // Away from all spheres it picks none, and a drag picks nothing.
   driver.key("Escape");
   told = driver.told();
@@ -188,82 +175,17 @@ TEST_CASE("Window: a drag turns the view, undo turns it back, and the saved scen
   const Scene scene = saved_scene(driver);
   CHECK(scene.view.azimuth == doctest::Approx(-40.0));
   CHECK(scene.view.elevation == doctest::Approx(24.0));
-
-  // A film of the saved scene has the picture of the window.
-  driver.key("space");
-  told = driver.told();
-  driver.key("F2");
-  const std::string shot = driver.wait_for("screenshot", told)["file"];
-  const json place = driver.wait_for(
-      "widget", 0, [](const json& event) { return event["name"] == "viewport"; })["place"];
-  const std::string size =
-      std::to_string(place[2].get<int>()) + 'x' + std::to_string(place[3].get<int>());
-  const auto difference = [&](const std::string& settings) {
-    const Outcome outcome =
-        driver.shell().run("clatter render clatter-1.toml --to 1 --overwrite --quiet --size " +
-                           size + " --out film.png " + settings);
-    CAPTURE(outcome.err);
-    REQUIRE(outcome.code == 0);
-    const std::string a = grey(driver.shell(), shot), b = grey(driver.shell(), "film.png");
-    REQUIRE(a.size() == b.size());
-    double sum = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      sum += std::abs(static_cast<unsigned char>(a[i]) - static_cast<unsigned char>(b[i]));
-    }
-    return sum / static_cast<double>(a.size());
-  };
-  const double same = difference(""), other = difference("--set view.azimuth=-30");
-  MESSAGE("mean difference " << same << ", with another angle " << other);
-  CHECK(same < 0.1);
-  CHECK(other > 10.0 * same);
 }
 
-TEST_CASE("Window: the buttons of the view turn it, and Shift and drag moves it") {
-  const Scenes scenes;
-  const GuiDriver driver(scenes.rows(), "1280x1300");
-  std::size_t told = driver.told();
-  driver.click("view.from.y");
-  driver.wait_for("turn", told, [](const json& turn) { return turned(turn, 0.0, 90.0); });
-  told = driver.told();
-  driver.click("view.from.iso");
-  driver.wait_for("turn", told);
-  wait_for_picture(driver, told);
-  told = driver.told();
-  driver.click("view.from.z");
-  wait_for_picture(driver, told);
-  CHECK(picked_in_the_middle(driver) == 0);
-  // The view moves with the mouse: another sphere, or none, is then in the middle.
-  told = driver.told();
-  driver.tool("keydown shift");
-  driver.pull("viewport", 60, 0);
-  driver.tool("keyup shift");
-  wait_for_picture(driver, told);
-  CHECK(picked_in_the_middle(driver).is_null());
-  look_from(driver, "f");
-  CHECK(picked_in_the_middle(driver) == 0);
-}
-
-TEST_CASE("Window: the wheel zooms about the mouse, and a followed sphere is in the middle") {
+TEST_CASE("Window: the wheel zooms about the mouse") {
   const Scenes scenes;
   const GuiDriver driver(scenes.rows());
   CHECK(picked_in_the_middle(driver) == 0);
-  const double share = share_of(driver, 2);
-  CHECK(share > 0.55);
+  CHECK(share_of(driver, 2) > 0.55);
   // By a factor of 0.85^4. About the middle of the viewport the sphere would move by 1.6 diameters.
   driver.tool("click --repeat 4 --delay 100 4 sleep 0.5");
   driver.key("Escape");
   CHECK(picked_here(driver) == 2);
-  // A double-click follows the sphere. After Escape the view stays. On a busy machine the two
-  // clicks may be too far apart.
-  bool followed = false;
-  for (int attempt = 0; attempt < 10 && !followed; ++attempt) {
-    driver.point_at("viewport", share);
-    driver.tool("sleep 0.5 click --repeat 2 --delay 60 1 sleep 0.5");
-    driver.key("Escape");
-    driver.point_at("viewport");
-    followed = picked_here(driver) == 2;
-  }
-  CHECK(followed);
 }
 
 TEST_CASE("Window: V shows the path of the picked sphere, and hides it") {
@@ -279,41 +201,6 @@ TEST_CASE("Window: V shows the path of the picked sphere, and hides it") {
   CHECK_FALSE(saved_scene(driver).view.tracer);
   driver.key("ctrl+z");
   CHECK(saved_scene(driver).view.tracer);
-}
-
-TEST_CASE("Window: spheres become disks, and undo starts the former scene") {
-  const Scenes scenes;
-  const GuiDriver driver(scenes.gas() + " --set 'view.slab={axis=\"y\",from=1.0,to=5.0}'",
-                         "1280x1500");
-  const json before = driver.wait_for("status");
-  std::size_t told = driver.told();
-  driver.click("dimension");
-  driver.click("dimension.2: disks");
-  const json message = driver.wait_for("message", told);
-  CHECK(says(message["text"], "removed: walls.back, walls.front, view.slab"));
-  const json disks =
-      driver.wait_for("status", told, [](const json& status) { return status["run"] == 2; });
-  CHECK(disks["box"].size() == 2);
-  CHECK(disks["particles"] == 100);
-  const Scene flat = saved_scene(driver);
-  CHECK(flat.dimension() == 2);
-  // A law changes, and is undone before the dimension.
-  driver.drag("particles.restitution", 0.88, 0.5);
-  driver.key("ctrl+z");
-  told = driver.told();
-  driver.key("ctrl+z");
-  const json again =
-      driver.wait_for("status", told, [](const json& status) { return status["run"] == 3; });
-  CHECK(again["box"] == before["box"]);
-  CHECK(again["restitution"] == before["restitution"]);
-  const Scene deep = saved_scene(driver);
-  CHECK(deep.walls[kBack]);
-  REQUIRE(deep.view.slab);
-  CHECK(deep.view.slab->to == 5.0);
-  told = driver.told();
-  driver.key("ctrl+y");
-  driver.wait_for("status", told,
-                  [&](const json& status) { return status["box"] == disks["box"]; });
 }
 
 TEST_CASE("Window: a wall of a box of spheres moves with the mouse, and undo moves it back") {

@@ -24,17 +24,6 @@ TEST_CASE("CommandQueue: everything arrives once and in order, from a thread tha
   for (int i = 0; i < kCount; ++i) REQUIRE(got[static_cast<std::size_t>(i)] == i);
 }
 
-TEST_CASE("CommandQueue: commands are taken once") {
-  CommandQueue<int> queue;
-  CHECK_FALSE(queue.pending());
-  queue.push(1);
-  queue.push(2);
-  CHECK(queue.pending());
-  CHECK(queue.take() == std::vector<int>{1, 2});
-  CHECK_FALSE(queue.pending());
-  CHECK(queue.take().empty());
-}
-
 TEST_CASE("CommandQueue: closing it wakes the waiting thread") {
   CommandQueue<int> queue;
   std::thread reader([&] { queue.wait(); });

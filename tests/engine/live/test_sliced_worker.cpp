@@ -44,18 +44,6 @@ TEST_CASE("SlicedWorker: a gas in slices has the state of the engine's thread") 
   CHECK(worker.frames().front().state_hash == hash);
 }
 
-TEST_CASE("SlicedWorker: it is busy with commands and with a moving gas only") {
-  SlicedWorker engine;
-  CHECK_FALSE(engine.busy());
-  engine.send(command::Open{load_scene("vibrated"), 1, true});
-  CHECK(engine.busy());
-  engine.work(2ms);
-  CHECK(engine.busy());
-  engine.send(command::Play{false});
-  engine.work(2ms);
-  CHECK_FALSE(engine.busy());
-}
-
 TEST_CASE("SlicedWorker: a delay of more than 100 ms is dropped") {
   SlicedWorker engine;
   engine.send(command::Open{load_scene("vibrated"), 1, true});

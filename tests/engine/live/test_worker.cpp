@@ -8,6 +8,7 @@
 #include "engine/scene/scene_file.h"
 #include "tests/support/messages.h"
 #include "tests/support/scenes.h"
+#include "tests/support/sliced_worker.h"
 
 using namespace clatter;
 using namespace clatter::testing;
@@ -37,6 +38,16 @@ const Frame& wait_for(Worker& worker, IsIt is_it) {
 
 const Frame& wait_for_handled(Worker& worker, std::uint64_t commands) {
   return wait_for(worker, [&](const Frame& frame) { return frame.handled >= commands; });
+}
+
+// The hash of a run of a frame's scene and its changes alone, at the time of the frame.
+template <int D>
+std::uint64_t hash_without_worker(const Frame& frame, std::uint64_t seed) {
+  Scene scene = *frame.started;
+  scene.changes = frame.scene->changes;
+  ScheduledRun<D> alone(parse_scene(scene_to_toml(scene), ""), seed);
+  alone.run_until(frame.snapshot.time);
+  return alone.simulation().state_hash();
 }
 
 // CPU time of all threads.
@@ -80,22 +91,6 @@ TEST_CASE("Worker: it reports the share of the speed that it holds") {
   CHECK(frame.held < 0.5);
 }
 
-TEST_CASE("Worker: runs played, stepped and made without it have the same hash at a time") {
-  const Scene scene = scene_at_speed("vibrated", 20.0);
-  Worker worker(60.0);
-  worker.send(command::Open{scene, 21});
-  wait_for(worker, [](const Frame& frame) { return frame.snapshot.time > 5.0; });
-  worker.send(command::Play{false});
-  worker.send(command::StepCollision{});
-  worker.send(command::Step{0.125});
-  const Frame halted =
-      wait_for(worker, [](const Frame& frame) { return frame.handled == 4 && frame.state_hash; });
-  CHECK_FALSE(halted.plays);
-  const auto simulation = simulation_of<2>(scene, 21);
-  simulation->run_until(halted.snapshot.time);
-  CHECK(simulation->state_hash() == *halted.state_hash);
-}
-
 TEST_CASE("Worker: spheres play, change their laws, and stay in a box of another size") {
   Scene scene = rough_spheres(40);
   wall_in(scene, 2, Wall{});  // an oscillating wall would push out particles in its range
@@ -106,10 +101,8 @@ TEST_CASE("Worker: spheres play, change their laws, and stay in a box of another
   worker.send(command::Play{true, 1.25});
   const Frame there =
       wait_for(worker, [](const Frame& frame) { return frame.handled == 4 && !frame.plays; });
-  REQUIRE(there.state_hash);
-  const auto simulation = simulation_of<3>(scene, 26);
-  simulation->run_until(1.25);
-  CHECK(simulation->state_hash() == *there.state_hash);
+  CHECK(there.snapshot.time == 1.25);
+  CHECK(there.state_hash == hash_without_worker<3>(there, 26));
   CHECK(there.tally.temperature_integral.size() == 3);
   CHECK(there.profile.has_value());
   worker.send(command::SetLaws{{{"particles.restitution", "0.7"}}});
@@ -134,48 +127,11 @@ TEST_CASE("Worker: spheres play, change their laws, and stay in a box of another
 }
 
 TEST_CASE("Worker: a gas of another dimension starts from its beginning") {
-  Worker worker(60.0);
-  worker.send(command::Open{load_scene("vibrated"), 1, false});
-  worker.send(command::Open{rough_spheres(40), 27, false, true});
-  const Frame frame = wait_for_handled(worker, 2);
+  SlicedWorker engine;
+  execute(engine, command::Open{load_scene("vibrated"), 1, false});
+  const Frame& frame = execute(engine, command::Open{rough_spheres(40), 27, false, true});
   CHECK(frame.message == "");
   CHECK(frame.state_hash == simulation_of<3>(rough_spheres(40), 27)->state_hash());
-}
-
-TEST_CASE("Worker: it plays up to a time, halts there, and plays on when asked") {
-  const Scene scene = scene_at_speed("vibrated", 20.0);
-  Worker worker(60.0);
-  worker.send(command::Open{scene, 24, false});
-  worker.send(command::Play{true, 1.25});
-  const Frame there =
-      wait_for(worker, [](const Frame& frame) { return frame.handled == 2 && !frame.plays; });
-  REQUIRE(there.state_hash);
-  CHECK(there.snapshot.time == 1.25);
-  const auto simulation = simulation_of<2>(scene, 24);
-  simulation->run_until(1.25);
-  CHECK(simulation->state_hash() == *there.state_hash);
-  worker.send(command::Play{true});
-  wait_for(worker, [](const Frame& frame) { return frame.snapshot.time > 2.0; });
-}
-
-TEST_CASE("Worker: it steps to a frame, and to a collision, whose pair it names") {
-  Worker worker(60.0);
-  worker.send(command::Open{scene_at_speed("vibrated", 2.0), 1, false});
-  CHECK(wait_for_handled(worker, 1).snapshot.time == 0.0);
-  worker.send(command::Step{0.25});
-  const Frame frame =
-      wait_for(worker, [](const Frame& frame) { return frame.handled == 2 && frame.state_hash; });
-  CHECK(frame.snapshot.time == 0.25);
-  CHECK_FALSE(frame.partners);
-  worker.send(command::StepCollision{});
-  const Frame hit =
-      wait_for(worker, [](const Frame& frame) { return frame.handled == 3 && frame.state_hash; });
-  CHECK(hit.snapshot.collisions == frame.snapshot.collisions + 1);
-  REQUIRE(hit.partners);
-  const auto [a, b] = *hit.partners;
-  Vec2 apart = hit.snapshot.positions.col(a) - hit.snapshot.positions.col(b);
-  apart.y() -= hit.snapshot.box.y() * std::round(apart.y() / hit.snapshot.box.y());
-  CHECK(apart.norm() == doctest::Approx(1.0).epsilon(1e-12));
 }
 
 TEST_CASE("Worker: laws that are set hold from then on, and its scene plays them back") {
@@ -193,12 +149,7 @@ TEST_CASE("Worker: laws that are set hold from then on, and its scene plays them
   CHECK(frame.message.empty());
   CHECK(frame.scene->particles.restitution == doctest::Approx(0.4));
   CHECK(frame.scene->changes.size() == 10);
-
-  Scene scene = load_scene("vibrated");
-  scene.changes = frame.scene->changes;
-  ScheduledRun<2> played(parse_scene(scene_to_toml(scene), ""), 22);
-  played.run_until(frame.snapshot.time);
-  CHECK(played.simulation().state_hash() == *frame.state_hash);
+  CHECK(frame.state_hash == hash_without_worker<2>(frame, 22));
 }
 
 TEST_CASE("Worker: if laws are set faster than they can change, the last ones count") {
@@ -232,23 +183,19 @@ TEST_CASE("Worker: each of many equal nudges counts, also of a gas that plays ba
   REQUIRE(halted.scene->changes.size() == 6);
   CHECK(halted.scene->changes.back().time <= back + 0.1);
   CHECK(halted.other_future);
-  Scene scene = *halted.started;
-  scene.changes = halted.scene->changes;
-  ScheduledRun<2> alone(scene, 1);
-  alone.run_until(halted.snapshot.time);
-  CHECK(alone.simulation().state_hash() == *halted.state_hash);
+  CHECK(halted.state_hash == hash_without_worker<2>(halted, 1));
 
-  scene.changes.pop_back();
-  worker.send(command::ReplaceChanges{scene.changes, halted.scene->changes.back().time});
+  std::vector<Change> changes = halted.scene->changes;
+  changes.pop_back();
+  worker.send(command::ReplaceChanges{changes, halted.scene->changes.back().time});
   const Frame undone = wait_for_handled(worker, 11);
-  CHECK(undone.scene->changes == scene.changes);
+  CHECK(undone.scene->changes == changes);
   CHECK(undone.snapshot.time == doctest::Approx(halted.scene->changes.back().time));
 }
 
-TEST_CASE("Worker: profiles come when asked for, and do not change the run") {
-  const Scene scene = scene_at_speed("vibrated", 50.0);
+TEST_CASE("Worker: profiles and residuals come when asked for, and do not change the run") {
   Worker worker(60.0);
-  worker.send(command::Open{scene, 25});
+  worker.send(command::Open{scene_at_speed("vibrated", 50.0), 25});
   CHECK_FALSE(wait_for_handled(worker, 1).profile);
   worker.send(command::ShowProfile{Profiled::Fields});
   const Frame shown = wait_for(worker, [](const Frame& frame) {
@@ -261,62 +208,25 @@ TEST_CASE("Worker: profiles come when asked for, and do not change the run") {
   CHECK(particles == doctest::Approx(200.0).epsilon(1e-9));
   // Central band: its density exceeds the density at the walls by many standard errors.
   CHECK(density[10].mean > density[0].mean + 5.0 * density[10].standard_error);
-  worker.send(command::ShowProfile{Profiled::Nothing});
-  worker.send(command::Play{false});
-  const Frame halted = wait_for_handled(worker, 4);
-  CHECK_FALSE(halted.profile);
-  const auto simulation = simulation_of<2>(scene, 25);
-  simulation->run_until(halted.snapshot.time);
-  CHECK(simulation->state_hash() == *halted.state_hash);
-}
 
-TEST_CASE("Worker: balance residuals come when asked for, and are roundings") {
-  const Scene scene = scene_at_speed("vibrated", 50.0);
-  Worker worker(60.0);
-  worker.send(command::Open{scene, 29});
   worker.send(command::ShowProfile{Profiled::Balances});
-  const Frame shown = wait_for(worker, [](const Frame& frame) {
+  const Frame balanced = wait_for(worker, [&](const Frame& frame) {
     return frame.residuals && !frame.residuals->residuals.equations.empty() &&
-           frame.snapshot.time > 10.0;
+           frame.snapshot.time > shown.snapshot.time + 10.0;
   });
-  CHECK_FALSE(shown.profile);
-  CHECK(shown.residuals->residuals.equations[0].size() == 20);
-  CHECK(shown.residuals->width == doctest::Approx(shown.snapshot.box.x() / 20.0));
+  CHECK_FALSE(balanced.profile);
+  CHECK(balanced.residuals->residuals.equations[0].size() == 20);
+  CHECK(balanced.residuals->width == doctest::Approx(balanced.snapshot.box.x() / 20.0));
   // As in measurements: not zero, but far below the effect of a missing event.
-  const std::vector<double> largest = shown.residuals->residuals.largest();
+  const std::vector<double> largest = balanced.residuals->residuals.largest();
   CHECK(std::ranges::max(largest) < 1e-9);
   CHECK(largest[3] > 0.0);
+  worker.send(command::ShowProfile{Profiled::Nothing});
   worker.send(command::Play{false});
-  const Frame halted = wait_for_handled(worker, 3);
-  const auto simulation = simulation_of<2>(scene, 29);
-  simulation->run_until(halted.snapshot.time);
-  CHECK(simulation->state_hash() == *halted.state_hash);
-}
-
-TEST_CASE("Worker: it predicts the next collision of a picked particle, then reports it") {
-  Worker worker(60.0);
-  worker.send(command::Open{scene_at_speed("vibrated", 2.0), 26, false});
-  worker.send(command::Pick{7});
-  const Frame picked = wait_for(
-      worker, [](const Frame& frame) { return frame.handled == 2 && frame.next_collision; });
-  CHECK_FALSE(picked.last_collision);
-  const double time = picked.next_collision->time;
-  CHECK(time > 0.0);
-  // Just before the event it is in the future, afterwards in the past.
-  worker.send(command::Play{true, time * (1.0 - 1e-9)});
-  const Frame before = wait_for(worker, [](const Frame& frame) {
-    return frame.handled == 3 && frame.state_hash && frame.next_collision;
-  });
-  CHECK_FALSE(before.last_collision);
-  CHECK(before.next_collision->time == doctest::Approx(time).epsilon(1e-12));
-  worker.send(command::Play{true, time * (1.0 + 1e-9)});
-  const Frame after = wait_for(worker, [](const Frame& frame) {
-    return frame.handled == 4 && frame.state_hash && frame.next_collision;
-  });
-  REQUIRE(after.last_collision);
-  CHECK(after.last_collision->time == doctest::Approx(time).epsilon(1e-12));
-  CHECK(after.last_collision->partner == picked.next_collision->partner);
-  CHECK(after.next_collision->time > time);
+  const Frame halted = wait_for_handled(worker, 5);
+  CHECK_FALSE(halted.profile);
+  CHECK_FALSE(halted.residuals);
+  CHECK(halted.state_hash == hash_without_worker<2>(halted, 25));
 }
 
 TEST_CASE("Worker: the predicted collision of a picked particle occurs while the gas plays") {
@@ -344,11 +254,7 @@ TEST_CASE("Worker: the predicted collision of a picked particle occurs while the
   // The look-ahead does not change the run.
   worker.send(command::Play{false});
   const Frame halted = wait_for_handled(worker, 8);
-  Scene scene = *halted.started;
-  scene.changes = halted.scene->changes;
-  ScheduledRun<2> alone(scene, 30);
-  alone.run_until(halted.snapshot.time);
-  CHECK(alone.simulation().state_hash() == *halted.state_hash);
+  CHECK(halted.state_hash == hash_without_worker<2>(halted, 30));
 }
 
 TEST_CASE("Worker: a picked particle at rest has no next collision") {
@@ -388,17 +294,12 @@ TEST_CASE("Worker: if the run stops before the next collision, it reports none")
   // A stroke that would move the bottom into the particles.
   Scene scene = load_scene("shaker");
   scene.changes = {{.time = 0.05, .set = {{"walls.bottom.stroke", "40"}}}};
-  Worker worker(60.0);
-  worker.send(command::Open{scene, 1, false});
-  std::uint64_t commands = 1;
+  SlicedWorker engine;
+  execute(engine, command::Open{scene, 1, false});
+  Frame stopped;
   do {
-    worker.send(command::StepCollision{});
-    ++commands;
-    wait_for(worker, [&](const Frame& frame) {
-      return frame.handled == commands && (frame.partners || frame.messages > 0);
-    });
-  } while (worker.frames().front().messages == 0);
-  const Frame& stopped = worker.frames().front();
+    stopped = execute(engine, command::StepCollision{});
+  } while (stopped.messages == 0);
   CHECK(stopped.snapshot.time == 0.05);
   CHECK(stopped.snapshot.collisions > 0);
   CHECK(says(stopped.message, "into a particle"));
@@ -407,31 +308,27 @@ TEST_CASE("Worker: if the run stops before the next collision, it reports none")
 
 // An invalid law that comes into force with the very collision of the step.
 TEST_CASE("Worker: a mistake found when it halts is reported, too") {
-  Scene scene = scene_at_speed("vibrated", 2.0);
-  const auto hit = [](const Frame& frame) { return frame.handled == 2 && frame.partners; };
-  double time = 0.0;
-  {
-    Worker worker(60.0);
-    worker.send(command::Open{scene, 1, false});
-    worker.send(command::StepCollision{});
-    time = wait_for(worker, hit).snapshot.time;
-  }
+  Scene scene = load_scene("vibrated");
+  const auto at_first_collision = [](const Scene& opened) {
+    SlicedWorker engine;
+    execute(engine, command::Open{opened, 1, false});
+    return Frame(execute(engine, command::StepCollision{}));
+  };
+  const double time = at_first_collision(scene).snapshot.time;
   scene.changes = {{.time = time, .set = {{"particles.restitution", "7"}}}};
-  Worker worker(60.0);
-  worker.send(command::Open{scene, 1, false});
-  worker.send(command::StepCollision{});
-  const Frame& there = wait_for(worker, hit);
+  const Frame there = at_first_collision(scene);
+  CHECK(there.partners);
   CHECK(there.messages == 1);
   CHECK(says(there.message, "between 0 and 1"));
 }
 
 TEST_CASE("Worker: a gas that is kept starts with its own temperature") {
-  Worker worker(60.0);
-  worker.send(
-      command::Open{load_scene("vibrated", {{"particles.start.temperature", "4"}}), 1, false});
-  worker.send(
+  SlicedWorker engine;
+  execute(engine,
+          command::Open{load_scene("vibrated", {{"particles.start.temperature", "4"}}), 1, false});
+  const Frame& frame = execute(
+      engine,
       command::Open{load_scene("vibrated", {{"box.size", "[20.0, 30.0]"}}), 1, false, true});
-  const Frame& frame = wait_for_handled(worker, 2);
   CHECK(frame.run == 2);
   CHECK(frame.scene->particles.start.temperature == doctest::Approx(4.0).epsilon(1e-12));
 }
@@ -464,23 +361,5 @@ TEST_CASE("Worker: it ends when asked to, also in the midst of a collapse") {
     wait_for_handled(worker, 1);
     std::this_thread::sleep_for(200ms);
     CHECK(worker.stop_within(100s));
-  }
-}
-
-TEST_CASE("Worker: where it halts, a run without it has the same hash") {
-  const Scene scene = scene_at_speed("vibrated", 20.0);
-  Worker worker(60.0);
-  worker.send(command::Open{scene, 23});
-  for (std::uint64_t command = 2; command < 12; command += 2) {
-    worker.send(command::Play{true});
-    std::this_thread::sleep_for(20ms);
-    if (command % 4 == 0) worker.send(command::StepCollision{});
-    if (command % 4 != 0) worker.send(command::Play{false});
-    const Frame halted = wait_for(worker, [&](const Frame& frame) {
-      return frame.handled == command + 1 && frame.state_hash;
-    });
-    const auto simulation = simulation_of<2>(scene, 23);
-    simulation->run_until(halted.snapshot.time);
-    CHECK(simulation->state_hash() == *halted.state_hash);
   }
 }

@@ -20,6 +20,18 @@ inline Scene rough_mixture(int count) {
   return scene;
 }
 
+/// The same with spins, gravity, kicks, a moving wall and a contact time.
+inline Scene everything_in_motion(int count) {
+  Scene scene = rough_mixture(count);
+  scene.particles.roughness = {.friction = 0.5, .tangential_restitution = 0.5};
+  scene.walls[kRight] = {
+      .kind = WallKind::Sinusoidal, .restitution = 0.7, .stroke = 0.3, .frequency = 1.3};
+  scene.gravity = Vec2(0.1, -0.2);
+  scene.bulk_drive = BulkDrive{.interval = 0.3, .kick_speed = 0.2, .kick_spin = 0.1};
+  scene.contact_time = 1e-3;
+  return scene;
+}
+
 /// A single particle in a box. Its motion is known at any time.
 inline std::unique_ptr<Simulation<2>> lone_particle(const Scene& scene, const Vec2& r,
                                                     const Vec2& v) {

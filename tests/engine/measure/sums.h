@@ -7,17 +7,16 @@
 
 namespace clatter::testing {
 
-/// All fields that are averages; without spins, all such fields of a smooth gas.
-inline std::vector<Field> average_fields(bool spins = true) {
+/// All fields that are averages.
+inline std::vector<Field> average_fields() {
   std::vector<Field> fields = all_fields(2);
-  std::erase_if(fields,
-                [&](Field field) { return is_residual(field) || (of_spins(field) && !spins); });
+  std::erase_if(fields, [](Field field) { return is_residual(field); });
   return fields;
 }
 
 /// A layout with all sums.
-inline MomentLayout<2> full_layout(bool spins = true) {
-  return moment_layout<2>(average_fields(), spins);
+inline MomentLayout<2> full_layout() {
+  return moment_layout<2>(average_fields(), true);
 }
 
 /// The sums of a cell by name.

@@ -25,14 +25,6 @@ std::size_t bytes_of(const Make& make) {
   return allocated_bytes() - before;
 }
 
-class EventCounter : public Observer<2> {
- public:
-  std::uint64_t collisions = 0, walls = 0, kicks = 0;
-  void on_collision(const PairCollision<2>&) override { ++collisions; }
-  void on_wall(const WallCollision<2>&) override { ++walls; }
-  void on_kick(const Kick<2>&) override { ++kicks; }
-};
-
 }  // namespace
 
 TEST_CASE("Absent parts: a smooth gas holds no spins, and without t_c no times of collisions") {
@@ -68,21 +60,6 @@ TEST_CASE("Absent parts: without fields there is no grid") {
   CHECK(measured_bytes() < kGrid / 10);
   scene.measure.fields = {Quantity::Density};
   CHECK(measured_bytes() > kGrid);
-}
-
-TEST_CASE("Absent parts: only observers of an event are called, and they change nothing") {
-  Scene scene = rough_mixture(30);
-  scene.bulk_drive = BulkDrive{.interval = 0.1, .kick_speed = 0.1};
-  const auto watched = simulation_of<2>(scene, 123), unwatched = simulation_of<2>(scene, 123);
-  EventCounter counter;
-  watched->add_observer(counter);
-  watched->run_until(20.0);
-  unwatched->run_until(20.0);
-  CHECK(counter.collisions == watched->counts().pair_collisions);
-  CHECK(counter.walls == watched->counts().wall_collisions);
-  CHECK(counter.kicks == 30 * watched->counts().kicks);
-  CHECK(counter.collisions > 100);
-  CHECK(watched->state_hash() == unwatched->state_hash());
 }
 
 TEST_CASE("Absent parts: a part that is there but switched off changes no bit") {

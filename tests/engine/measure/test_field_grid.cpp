@@ -7,11 +7,14 @@
 #include "engine/measure/field_grid.h"
 #include "engine/measure/gaussian_kernel.h"
 #include "tests/engine/measure/scenes.h"
+#include "tests/engine/support/models.h"
 
 using namespace clatter;
 using namespace clatter::testing;
 
 namespace {
+
+using Cell = FieldGrid<2>::Cell;
 
 FieldGrid<2> grid_in(const Scene& scene, const IntVec<2>& cells) {
   return {model_of<2>(scene, 1), cells};
@@ -23,6 +26,9 @@ Scene half_walled() {
   wall_in(scene, 0, Wall{});
   return scene;
 }
+
+/// Cells of 2 by 2, between walls at the left and right.
+const FieldGrid<2> kGrid(with_walls(periodic_box(8.0, 6.0), 0, Wall{}), {4, 3});
 
 std::vector<double> shares_of(const FieldGrid<2>& grid, const Vec2& from, const Vec2& along) {
   std::vector<double> shares(grid.size());
@@ -40,6 +46,35 @@ double weight_at(const GaussianKernel<2>& kernel, std::size_t cell, const Vec2& 
 }
 
 }  // namespace
+
+TEST_CASE("FieldGrid: cells by place and by index") {
+  CHECK(kGrid.cell_at({0.1, 0.1}) == Cell{0, 0});
+  CHECK(kGrid.cell_at({7.9, 5.9}) == Cell{3, 2});
+  CHECK(kGrid.index_of(kGrid.cell_at({-1.0, -1.0})) == kGrid.index_of({0, 2}));
+  CHECK(kGrid.index_of(kGrid.cell_at({11.0, 15.0})) == kGrid.index_of({3, 1}));
+  CHECK(kGrid.index_of({3, 2}) == 11);
+  for (std::size_t index = 0; index < 12; ++index) {
+    CHECK(kGrid.index_of(kGrid.cell_of(index)) == index);
+  }
+}
+
+TEST_CASE("FieldGrid: a cell has an image for each position, and one image between walls") {
+  CHECK(kGrid.image_at({1, 1}, {3.0, 3.0 - 60.0}) == Cell{1, -29});
+  CHECK(kGrid.image_at({1, -29}, {3.0, 3.0 + 6.0}) == Cell{1, 4});
+  CHECK(kGrid.image_at({1, 1}, {30.0, 3.0}) == Cell{1, 1});
+  // On a border too, the image is the near one.
+  CHECK(kGrid.image_at({1, 2}, {3.0, 0.0}) == Cell{1, -1});
+  CHECK(kGrid.image_at({1, 0}, {3.0, 6.0}) == Cell{1, 3});
+}
+
+TEST_CASE("FieldGrid: a cell contains its positions up to rounding") {
+  CHECK(kGrid.contains({1, 1}, {2.0 - 1e-12, 4.0 + 1e-12}));
+  CHECK(kGrid.contains({1, -29}, {3.0, 3.0 - 60.0}));
+  CHECK_FALSE(kGrid.contains({1, 1}, {3.0, 3.0 - 60.0}));
+  CHECK_FALSE(kGrid.contains({1, 1}, {1.99, 3.0}));
+  CHECK_FALSE(kGrid.contains({1, 1}, {3.0, 4.01}));
+  CHECK(kGrid.contains({-2, 1}, {-3.0, 3.0}));
+}
 
 TEST_CASE("FieldGrid: lines are cut as dense points on them fall") {
   const FieldGrid<2> grid = grid_in(half_walled(), {7, 6});

@@ -15,17 +15,6 @@ using namespace clatter::testing;
 
 namespace {
 
-// All contributions: rough particles, gravity, kicks, thermal, driven and moving walls.
-Scene everything() {
-  Scene scene = rough_mixture(20);
-  scene.particles.roughness = {.friction = 0.5, .tangential_restitution = 0.5};
-  scene.walls[kRight] = {
-      .kind = WallKind::Sinusoidal, .restitution = 0.7, .stroke = 0.3, .frequency = 1.3};
-  scene.gravity = Vec2(0.1, -0.2);
-  scene.bulk_drive = BulkDrive{.interval = 0.3, .kick_speed = 0.2, .kick_spin = 0.1};
-  return scene;
-}
-
 Measure residual_settings(std::vector<Field> fields) {
   Measure measure;
   measure.burn_in = 3.3;
@@ -92,7 +81,7 @@ TEST_CASE("Residuals: those beyond rounding are an error, which says how large t
 }
 
 TEST_CASE("Measurement: balances close where residuals are asked for, and only there") {
-  const Measured balanced = measured(everything(), residual_settings(kBalance));
+  const Measured balanced = measured(everything_in_motion(20), residual_settings(kBalance));
   REQUIRE(balanced.residuals);
   CHECK(balanced.residuals->equations[0].size() == 20);
   CHECK(balanced.residuals->largest()[0] == 0.0);
@@ -101,13 +90,14 @@ TEST_CASE("Measurement: balances close where residuals are asked for, and only t
   CHECK(std::ranges::max(balanced.residuals->largest()) < 1e-12);
   CHECK_FALSE(balanced.profile);
 
-  const Measured averaged = measured(everything(), residual_settings({Quantity::Density}));
+  const Measured averaged =
+      measured(everything_in_motion(20), residual_settings({Quantity::Density}));
   CHECK_FALSE(averaged.residuals);
   CHECK(averaged.profile);
 
   std::vector<Field> fields = kBalance;
   fields.push_back(Quantity::Density);
-  const Measured both = measured(everything(), residual_settings(fields));
+  const Measured both = measured(everything_in_motion(20), residual_settings(fields));
   CHECK(both.residuals->equations == balanced.residuals->equations);
   CHECK(both.profile->fields == std::vector{Field(Quantity::Density)});
   CHECK(both.temperature.mean == averaged.temperature.mean);
@@ -117,13 +107,13 @@ TEST_CASE("Measurement: balances close where residuals are asked for, and only t
 TEST_CASE("Measurement: residuals have maps over the whole time, after the maps of averages") {
   std::vector<Field> fields = kBalance;
   fields.push_back(Quantity::Density);
-  const Measured both = measured(everything(), residual_settings(fields));
+  const Measured both = measured(everything_in_motion(20), residual_settings(fields));
   REQUIRE(both.maps->maps.size() == 5);
   CHECK(both.maps->maps[0].field == Quantity::Density);
   CHECK(both.maps->maps[4].field == Quantity::BalanceEnergy);
   CHECK(both.map_series[0].maps.size() == 1);
 
-  const Measured alone = measured(everything(), residual_settings(kBalance));
+  const Measured alone = measured(everything_in_motion(20), residual_settings(kBalance));
   CHECK(alone.map_series.empty());
   CHECK(alone.maps->begin == both.maps->begin);
   CHECK(alone.maps->end == both.maps->end);
@@ -139,7 +129,7 @@ TEST_CASE("Measurement: residuals have maps over the whole time, after the maps 
 // 32 averaging windows form one window of the balance. Of 520, 8 remain for the last one.
 TEST_CASE("Measurement: residuals are of all the time after the burn-in") {
   const Measure measure = residual_settings(kBalance);
-  const auto simulation = simulation_of<2>(everything(), 61);
+  const auto simulation = simulation_of<2>(everything_in_motion(20), 61);
   const double end = measure.burn_in + measure.duration;
   const double window = (end - measure.burn_in) / 520.0;
   std::optional<Balance<2>> balance;
@@ -156,13 +146,13 @@ TEST_CASE("Measurement: residuals are of all the time after the burn-in") {
   simulation->run_until(end);
   residuals.include(balance->close_window().imbalances);
   REQUIRE(windows / 32 == 16);
-  CHECK(measured(everything(), measure).residuals->equations == residuals.equations);
+  CHECK(measured(everything_in_motion(20), measure).residuals->equations == residuals.equations);
 }
 
 TEST_CASE("Measurement: snapshots leave the balance as it is") {
   Measure measure = residual_settings(kBalance);
-  const auto exact = measured(everything(), measure).residuals->equations;
+  const auto exact = measured(everything_in_motion(20), measure).residuals->equations;
   measure.estimator = Estimator::Snapshot;
   measure.interval = 0.7;
-  CHECK(measured(everything(), measure).residuals->equations == exact);
+  CHECK(measured(everything_in_motion(20), measure).residuals->equations == exact);
 }

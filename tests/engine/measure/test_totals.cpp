@@ -148,15 +148,3 @@ TEST_CASE("Totals: a head-on collision by hand") {
   CHECK(window.second_moment.x() == doctest::Approx(0.25));
   CHECK(window.fourth_moment.x() == doctest::Approx(0.0625));
 }
-
-TEST_CASE("Totals: an empty gas has nothing, and no NaN") {
-  const auto simulation = simulation_of<2>(gas(10.0, 10.0, 0, 0.9), 1);
-  Totals<2> totals(*simulation);
-  simulation->add_observer(totals);
-  simulation->run_until(5.0);
-  const WindowTotals<2> window = totals.close_window();
-  CHECK(window.duration == 5.0);
-  CHECK(window.temperature == Vec2(0.0, 0.0));
-  CHECK(window.second_moment == Vec2(0.0, 0.0));
-  CHECK(totals.ledger_residual() == 0.0);
-}

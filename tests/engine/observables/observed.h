@@ -1,12 +1,17 @@
 #pragma once
 
+#include <doctest/doctest.h>
+
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <vector>
 
 #include "engine/measure/measurement.h"
 #include "engine/run/scheduled_run.h"
+#include "tests/support/dimensions.h"
 #include "tests/support/scenes.h"
 
 namespace clatter::testing {
@@ -63,6 +68,52 @@ inline Estimate mean_of(const Measured& measured, const std::string& name) {
 /// Distance of an estimate from its expected value, in standard errors.
 inline double errors_off(const Estimate& estimate, double expected) {
   return std::fabs(estimate.mean - expected) / estimate.standard_error;
+}
+
+/// The shortest vector between the images of two positions, from any vector between them.
+template <int D>
+Vec<D> nearest_image(const Model<D>& model, Vec<D> apart) {
+  for (int axis = 0; axis < D; ++axis) {
+    if (model.periodic(axis)) {
+      apart[axis] -= model.box[axis] * std::round(apart[axis] / model.box[axis]);
+    }
+  }
+  return apart;
+}
+
+/// Checks a histogram between the columns low and high. Returns how many of the numbers are in it.
+inline double check_density(const ResultTable& table, const std::string& column,
+                            const std::vector<double>& numbers) {
+  CAPTURE(table.name);
+  CAPTURE(column);
+  const TableColumn low = column_of(table, "low"), high = column_of(table, "high");
+  const TableColumn density = column_of(table, column);
+  double total = 0.0;
+  for (std::size_t row = 0; row < low.values.size(); ++row) {
+    const auto inside = static_cast<double>(std::ranges::count_if(numbers, [&](double number) {
+      return number >= low.values[row] && number < high.values[row];
+    }));
+    const double width = high.values[row] - low.values[row];
+    CHECK(density.values[row] ==
+          doctest::Approx(inside / static_cast<double>(numbers.size()) / width).epsilon(1e-9));
+    total += inside;
+  }
+  return total;
+}
+
+/// Checks the mean, the variance, if it has a name, and the histogram of numbers.
+inline void check_numbers(const Measured& measured, const std::string& table,
+                          const std::string& mean_name, const std::string& variance_name,
+                          const std::vector<double>& numbers) {
+  const auto count = static_cast<double>(numbers.size());
+  const double mean = std::accumulate(numbers.begin(), numbers.end(), 0.0) / count;
+  double variance = 0.0;
+  for (const double number : numbers) variance += (number - mean) * (number - mean) / count;
+  CHECK(mean_of(measured, mean_name).mean == doctest::Approx(mean).epsilon(1e-9));
+  if (!variance_name.empty()) {
+    CHECK(mean_of(measured, variance_name).mean == doctest::Approx(variance).epsilon(1e-9));
+  }
+  CHECK(check_density(table_of(measured, table), "density", numbers) == count);
 }
 
 }  // namespace clatter::testing

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 #include "tests/engine/observables/observed.h"
 
@@ -10,9 +9,6 @@ using namespace clatter;
 using namespace clatter::testing;
 
 namespace {
-
-using Plane = std::integral_constant<int, 2>;
-using Space = std::integral_constant<int, 3>;
 
 // The collisions of each particle and pair since the last clear().
 template <int D>
@@ -35,27 +31,6 @@ class Counts : public Observer<D> {
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> pairs;
 };
 
-double sum_of(const std::vector<double>& numbers) {
-  return std::accumulate(numbers.begin(), numbers.end(), 0.0);
-}
-
-// The histogram is that of the numbers.
-void check_histogram(const ResultTable& table, const std::vector<double>& numbers) {
-  CAPTURE(table.name);
-  const TableColumn low = column_of(table, "low"), high = column_of(table, "high");
-  double total = 0.0;
-  for (std::size_t row = 0; row < low.values.size(); ++row) {
-    const auto inside = std::ranges::count_if(numbers, [&](double number) {
-      return number >= low.values[row] && number < high.values[row];
-    });
-    CHECK(column_of(table, "density").values[row] ==
-          doctest::Approx(static_cast<double>(inside) / static_cast<double>(numbers.size()) /
-                          (high.values[row] - low.values[row])));
-    total += static_cast<double>(inside);
-  }
-  CHECK(total == static_cast<double>(numbers.size()));
-}
-
 // Measures a gas, and counts again. Pairs are those of every `stride`-th particle with others.
 template <int D>
 void check_counts(const Scene& scene, double interval, int intervals, std::size_t stride) {
@@ -75,16 +50,9 @@ void check_counts(const Scene& scene, double interval, int intervals, std::size_
     }
     counts.clear();
   }
-  check_histogram(table_of(measured, "collision_counts.particle"), particles);
-  check_histogram(table_of(measured, "collision_counts.pair"), pairs);
-  const auto count = static_cast<double>(particles.size());
-  const double mean = sum_of(particles) / count;
-  double variance = 0.0;
-  for (const double number : particles) variance += (number - mean) * (number - mean) / count;
-  CHECK(mean_of(measured, "collision_counts.mean_number").mean == doctest::Approx(mean));
-  CHECK(mean_of(measured, "collision_counts.number_variance").mean == doctest::Approx(variance));
-  CHECK(mean_of(measured, "collision_counts.mean_per_pair").mean ==
-        doctest::Approx(sum_of(pairs) / static_cast<double>(pairs.size())));
+  check_numbers(measured, "collision_counts.particle", "collision_counts.mean_number",
+                "collision_counts.number_variance", particles);
+  check_numbers(measured, "collision_counts.pair", "collision_counts.mean_per_pair", "", pairs);
 }
 
 }  // namespace

@@ -17,9 +17,6 @@ using namespace clatter::testing;
 
 namespace {
 
-using Plane = std::integral_constant<int, 2>;
-using Space = std::integral_constant<int, 3>;
-
 // Sum of density times width over the bins.
 double total(const ResultTable& table) {
   const TableColumn low = column_of(table, "low"), high = column_of(table, "high");

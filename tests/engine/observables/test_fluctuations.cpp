@@ -15,40 +15,12 @@ using namespace clatter::testing;
 
 namespace {
 
-using Plane = std::integral_constant<int, 2>;
-using Space = std::integral_constant<int, 3>;
-
 constexpr double kInterval = 0.7;
 constexpr int kSamples = 60;
 
 template <int D>
 Measured fluctuations(const Scene& scene, const Measure& measure, ObservableKind kind) {
   return observed<D>(scene, measure, kind, kSamples * kInterval, 3);
-}
-
-// The mean, the variance and the histogram are those of the numbers.
-void check_numbers(const Measured& measured, const std::string& table, const std::string& mean_name,
-                   const std::string& variance_name, const std::vector<double>& numbers) {
-  CAPTURE(table);
-  const auto count = static_cast<double>(numbers.size());
-  const double mean = std::accumulate(numbers.begin(), numbers.end(), 0.0) / count;
-  double variance = 0.0;
-  for (const double number : numbers) variance += (number - mean) * (number - mean) / count;
-  CHECK(mean_of(measured, mean_name).mean == doctest::Approx(mean).epsilon(1e-9));
-  CHECK(mean_of(measured, variance_name).mean == doctest::Approx(variance).epsilon(1e-9));
-  const ResultTable found = table_of(measured, table);
-  const TableColumn low = column_of(found, "low"), high = column_of(found, "high");
-  double total = 0.0;
-  for (std::size_t row = 0; row < low.values.size(); ++row) {
-    const auto inside = std::ranges::count_if(numbers, [&](double number) {
-      return number >= low.values[row] && number < high.values[row];
-    });
-    const double width = high.values[row] - low.values[row];
-    CHECK(column_of(found, "density").values[row] ==
-          doctest::Approx(static_cast<double>(inside) / count / width).epsilon(1e-9));
-    total += static_cast<double>(inside);
-  }
-  CHECK(total == count);
 }
 
 // Energies that walls give since the last call of take().

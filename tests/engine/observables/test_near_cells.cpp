@@ -6,15 +6,12 @@
 
 #include "engine/observables/near_cells.h"
 #include "engine/physics/random.h"
-#include "tests/support/scenes.h"
+#include "tests/engine/observables/observed.h"
 
 using namespace clatter;
 using namespace clatter::testing;
 
 namespace {
-
-using Plane = std::integral_constant<int, 2>;
-using Space = std::integral_constant<int, 3>;
 
 template <int D>
 std::vector<Vec<D>> random_positions(const Model<D>& model, std::uint32_t count) {
@@ -54,12 +51,7 @@ TEST_CASE_TEMPLATE("Near cells: each pair within the range is visited once", Dim
       std::vector<Pair> expected, visited;
       for (std::uint32_t i = 0; i < positions.size(); ++i) {
         for (std::uint32_t j = 0; j < i; ++j) {
-          Vec<D> apart = positions[i] - positions[j];
-          for (int axis = 0; axis < D; ++axis) {
-            if (model.periodic(axis)) {
-              apart[axis] -= model.box[axis] * std::round(apart[axis] / model.box[axis]);
-            }
-          }
+          const Vec<D> apart = nearest_image<D>(model, positions[i] - positions[j]);
           if (apart.norm() <= range) expected.emplace_back(j, i);
         }
       }

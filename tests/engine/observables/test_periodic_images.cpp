@@ -5,15 +5,13 @@
 #include "engine/checkpoint/archive.h"
 #include "engine/observables/periodic_images.h"
 #include "engine/run/scheduled_run.h"
+#include "tests/support/dimensions.h"
 #include "tests/support/scenes.h"
 
 using namespace clatter;
 using namespace clatter::testing;
 
 namespace {
-
-using Plane = std::integral_constant<int, 2>;
-using Space = std::integral_constant<int, 3>;
 
 // A gas that falls through a periodic box of unequal sides.
 template <int D>

@@ -10,27 +10,6 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-namespace {
-
-using Plane = std::integral_constant<int, 2>;
-using Space = std::integral_constant<int, 3>;
-
-// Shortest distance over all periodic images within one period.
-template <int D>
-double distance(const Model<D>& model, const Vec<D>& a, const Vec<D>& b) {
-  double square = 0.0;
-  for (int axis = 0; axis < D; ++axis) {
-    double nearest = std::fabs(a[axis] - b[axis]);
-    for (const double image : {-model.box[axis], model.box[axis]}) {
-      if (model.periodic(axis)) nearest = std::min(nearest, std::fabs(a[axis] - b[axis] + image));
-    }
-    square += nearest * nearest;
-  }
-  return std::sqrt(square);
-}
-
-}  // namespace
-
 // The samples of a run are counted again by a loop over all pairs. The boxes have many cells along
 // some axes and few along others. 50,000 bins need distances in double precision.
 TEST_CASE_TEMPLATE("Radial distribution: counts all pairs of all samples", Dimension, Plane,
@@ -62,7 +41,8 @@ TEST_CASE_TEMPLATE("Radial distribution: counts all pairs of all samples", Dimen
       const State<D> state = simulation->state();
       for (std::size_t i = 0; i < state.positions.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
-          const double apart = distance<D>(model, state.positions[i], state.positions[j]);
+          const double apart =
+              nearest_image<D>(model, state.positions[i] - state.positions[j]).norm();
           const auto bin = static_cast<std::size_t>((apart - 1.0) / width);
           if (bin < counts.size()) counts[bin] += 1.0;
         }

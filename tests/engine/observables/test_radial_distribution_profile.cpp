@@ -14,9 +14,6 @@ using namespace clatter::testing;
 
 namespace {
 
-using Plane = std::integral_constant<int, 2>;
-using Space = std::integral_constant<int, 3>;
-
 // An ideal gas: points whose number per slab is fixed by chance, with a density that differs from
 // slab to slab. [parts] sums of the observable.
 template <int D>

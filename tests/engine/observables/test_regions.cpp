@@ -12,9 +12,6 @@ using namespace clatter::testing;
 
 namespace {
 
-using Plane = std::integral_constant<int, 2>;
-using Space = std::integral_constant<int, 3>;
-
 constexpr double kRegionInterval = 0.7;
 constexpr int kRegionSamples = 60;
 
@@ -168,29 +165,21 @@ TEST_CASE_TEMPLATE("Velocity distribution: a region has the velocities of its pa
   for (int axis = 0; axis < D; ++axis) {
     const std::string name(1, "xyz"[axis]);
     CAPTURE(name);
-    for (const char* kind : {"velocity_distribution", "velocity_distribution.tails"}) {
-      CAPTURE(kind);
-      const ResultTable table = table_of(measured, kind);
-      const TableColumn low = column_of(table, "low"), high = column_of(table, "high");
-      double all = 0.0;
-      for (std::size_t row = 0; row < low.values.size(); ++row) {
-        const auto number = std::ranges::count_if(inside, [&](const Vec<D>& v) {
-          const double scaled = (v[axis] - mean[axis]) / thermal;
-          return scaled >= low.values[row] && scaled < high.values[row];
-        });
-        const double width = high.values[row] - low.values[row];
-        CHECK(column_of(table, name).values[row] ==
-              doctest::Approx(static_cast<double>(number) / count / width));
-        all += static_cast<double>(number);
-      }
-      CHECK((all == count || kind == std::string("velocity_distribution")));
+    std::vector<double> scaled;
+    for (const Vec<D>& v : inside) scaled.push_back((v[axis] - mean[axis]) / thermal);
+    const ResultTable table = table_of(measured, "velocity_distribution");
+    check_density(table, name, scaled);
+    for (std::size_t row = 0; row < 8; ++row) {
+      const double low = -2.0 + 0.5 * static_cast<double>(row);
+      CHECK(column_of(table, "low").values[row] == doctest::Approx(low));
+      CHECK(column_of(table, "high").values[row] == doctest::Approx(low + 0.5));
     }
+    CHECK(check_density(table_of(measured, "velocity_distribution.tails"), name, scaled) == count);
     double second = 0.0, third = 0.0, fourth = 0.0;
-    for (const Vec<D>& v : inside) {
-      const double scaled = (v[axis] - mean[axis]) / thermal;
-      second += std::pow(scaled, 2) / count;
-      third += std::pow(scaled, 3) / count;
-      fourth += std::pow(scaled, 4) / count;
+    for (const double number : scaled) {
+      second += std::pow(number, 2) / count;
+      third += std::pow(number, 3) / count;
+      fourth += std::pow(number, 4) / count;
     }
     const auto moment = [&](const std::string& number) {
       return mean_of(measured, "velocity_distribution." + number + "_moment_" + name).mean;

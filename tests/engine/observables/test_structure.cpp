@@ -14,9 +14,6 @@ using namespace clatter::testing;
 
 namespace {
 
-using Plane = std::integral_constant<int, 2>;
-using Space = std::integral_constant<int, 3>;
-
 constexpr double kStructureInterval = 2.0;
 constexpr int kStructureSamples = 5;
 
@@ -36,17 +33,6 @@ void at_samples(const Scene& scene, std::uint64_t seed, const Visit& visit) {
     simulation->run_until(sample * kStructureInterval);
     visit(simulation->state());
   }
-}
-
-// The vector between two positions or their nearest images.
-template <int D>
-Vec<D> nearest(const Model<D>& model, Vec<D> apart) {
-  for (int axis = 0; axis < D; ++axis) {
-    if (model.periodic(axis)) {
-      apart[axis] -= model.box[axis] * std::round(apart[axis] / model.box[axis]);
-    }
-  }
-  return apart;
 }
 
 }  // namespace
@@ -120,7 +106,7 @@ TEST_CASE_TEMPLATE("Clusters: sizes are those of all samples", Dimension, Plane,
       for (std::size_t next = 0; next < cluster.size(); ++next) {
         for (std::size_t other = 0; other < seen.size(); ++other) {
           const Vec<D> apart =
-              nearest<D>(model, state.positions[cluster[next]] - state.positions[other]);
+              nearest_image<D>(model, state.positions[cluster[next]] - state.positions[other]);
           if (seen[other] || apart.norm() > kRange) continue;
           seen[other] = true;
           cluster.push_back(other);
@@ -173,7 +159,7 @@ TEST_CASE("Bond order: psi_6 is that of all samples") {
       std::complex<double> sum = 0.0;
       double neighbours = 0.0;
       for (const Vec2& other : state.positions) {
-        const Vec2 apart = nearest<2>(model, other - own);
+        const Vec2 apart = nearest_image<2>(model, other - own);
         if (&other == &own || apart.norm() > 1.5) continue;
         sum += std::polar(1.0, 6.0 * std::atan2(apart[1], apart[0]));
         neighbours += 1.0;

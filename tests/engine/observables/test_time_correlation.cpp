@@ -9,13 +9,6 @@
 using namespace clatter;
 using namespace clatter::testing;
 
-namespace {
-
-using Plane = std::integral_constant<int, 2>;
-using Space = std::integral_constant<int, 3>;
-
-}  // namespace
-
 TEST_CASE("Lag history: each lag compares with the sample of that age") {
   LagHistory<2> history({.interval = 0.5, .longest = 40.0, .lags = 4});
   const std::vector<std::uint64_t> expected = {0, 1, 2, 3, 4, 8, 12, 16, 32, 48, 64};
@@ -39,11 +32,6 @@ TEST_CASE("Lag history: each lag compares with the sample of that age") {
 TEST_CASE("Lag history: the longest lag may be a rounding error away") {
   CHECK(LagHistory<2>({.interval = 0.1, .longest = 0.3, .lags = 10}).lags().back() == 3);
   CHECK(LagHistory<2>({.interval = 1.0, .longest = 0.5, .lags = 10}).lags().size() == 1);
-}
-
-TEST_CASE("Lag history: a level exists only if it has lags") {
-  CHECK(LagHistory<2>({.interval = 1.0, .longest = 100.0, .lags = 10}).capacity() == 20);
-  CHECK(LagHistory<2>({.interval = 1.0, .longest = 200.0, .lags = 10}).capacity() == 30);
 }
 
 // Displacements over long lags overlap in time. The scatter of 32 runs gives their true errors,

@@ -12,9 +12,6 @@ using namespace clatter::testing;
 
 namespace {
 
-using Plane = std::integral_constant<int, 2>;
-using Space = std::integral_constant<int, 3>;
-
 // a2 of a gas with bulk drive, to first order (van Noije & Ernst 1998, Granular Matter 1, 57).
 double driven_a2(double alpha, int d) {
   return 16.0 * (1.0 - alpha) * (1.0 - 2.0 * alpha * alpha) /
@@ -40,38 +37,6 @@ TEST_CASE_TEMPLATE("Velocity distribution: Sonine coefficients of few elastic pa
   CHECK(errors_off(a2, 0.0) < 5.0);
   CHECK(a3.standard_error < 0.03);
   CHECK(errors_off(a3, 0.0) < 5.0);
-}
-
-// The histogram of one state, counted again, with unequal bins per axis.
-TEST_CASE("Velocity distribution: bins of each axis") {
-  const Scene scene = gas(20.0, 20.0, 100, 1.0);
-  Measure measure;
-  measure.velocity_distribution = {.interval = 1.0, .range = 3.0, .bins = 12};
-  const ResultTable table =
-      table_of(observed<2>(scene, measure, ObservableKind::VelocityDistribution, 1.0, 3),
-               "velocity_distribution");
-  const auto simulation = simulation_of<2>(scene, 3);
-  simulation->run_until(1.0);
-  const std::vector<Vec2> velocities = simulation->state().velocities;
-  Vec2 mean = Vec2::Zero();
-  for (const Vec2& v : velocities) mean += v / 100.0;
-  double squares = 0.0;
-  for (const Vec2& v : velocities) squares += (v - mean).squaredNorm();
-  const double thermal = std::sqrt(squares / 198.0);
-  for (const auto& [axis, name] : {std::pair{0, "x"}, std::pair{1, "y"}}) {
-    const TableColumn column = column_of(table, name);
-    for (std::size_t bin = 0; bin < 12; ++bin) {
-      const double low = column_of(table, "low").values[bin];
-      const double high = column_of(table, "high").values[bin];
-      CHECK(low == doctest::Approx(-3.0 + 0.5 * static_cast<double>(bin)));
-      CHECK(high == doctest::Approx(low + 0.5));
-      const auto count = std::ranges::count_if(velocities, [&](const Vec2& v) {
-        const double scaled = (v[axis] - mean[axis]) / thermal;
-        return scaled >= low && scaled < high;
-      });
-      CHECK(column.values[bin] == doctest::Approx(static_cast<double>(count) / 100.0 / 0.5));
-    }
-  }
 }
 
 // The velocities of elastic spheres relative to their mean are uniform on a sphere in n = 3 (N - 1)

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/checkpoint/archive.h"
 #include "engine/picture/flight_recorder.h"
 #include "engine/picture/snapshot.h"
 #include "tests/engine/measure/scenes.h"
+#include "tests/support/dimensions.h"
 
 using namespace clatter;
 using namespace clatter::testing;
@@ -62,8 +62,11 @@ std::size_t check_paths(const FlightRecorder<D>& recorder, const Simulation<D>& 
   return pieces.size();
 }
 
-template <int D>
-void check_whole_paths() {
+}  // namespace
+
+TEST_CASE_TEMPLATE("FlightRecorder: the pieces of a particle are its path, without gaps", Dimension,
+                   Plane, Space) {
+  constexpr int D = Dimension::value;
   const auto simulation = simulation_of<D>(falling_gas(D), 5);
   FlightRecorder<D> recorder(*simulation, 1.5);
   CHECK(recorder.pieces().empty());
@@ -75,21 +78,9 @@ void check_whole_paths() {
   }
 }
 
-template <int D>
-void check_same_hash() {
-  const auto plain = simulation_of<D>(falling_gas(D), 6);
-  const auto recorded = simulation_of<D>(falling_gas(D), 6);
-  FlightRecorder<D> recorder(*recorded, 0.5);
-  for (const double time : {1.0, 2.5, 20.0}) {
-    plain->run_until(time);
-    recorded->run_until(time);
-    recorder.pieces();
-    CHECK(recorded->state_hash() == plain->state_hash());
-  }
-}
-
-template <int D>
-void check_across_changes() {
+TEST_CASE_TEMPLATE("FlightRecorder: paths continue across changes of laws and of their span",
+                   Dimension, Plane, Space) {
+  constexpr int D = Dimension::value;
   Scene scene = falling_gas(D);
   const auto before = simulation_of<D>(scene, 7);
   FlightRecorder<D> first(*before, 1.0);
@@ -104,8 +95,9 @@ void check_across_changes() {
   check_paths(second, after, 2.0);
 }
 
-template <int D>
-void check_one_particle() {
+TEST_CASE_TEMPLATE("FlightRecorder: the path of one particle is its part of all paths", Dimension,
+                   Plane, Space) {
+  constexpr int D = Dimension::value;
   static constexpr std::uint32_t kTraced = 17;
   Scene scene = falling_gas(D);
   const auto before = simulation_of<D>(scene, 9);
@@ -130,51 +122,4 @@ void check_one_particle() {
   FlightRecorder<D> all_after(after, 6.0, std::move(all)), one_after(after, 6.0, std::move(one));
   after.run_until(9.0);
   check(all_after, one_after);
-}
-
-template <int D>
-void check_checkpoint() {
-  const Scene scene = falling_gas(D);
-  const auto simulation = simulation_of<D>(scene, 8);
-  FlightRecorder<D> recorder(*simulation, 1.0);
-  simulation->run_until(4.0);
-  ArchiveWriter writer;
-  writer(recorder);
-
-  Simulation<D> resumed(model_of<D>(scene, 8), simulation->save());
-  FlightRecorder<D> again(resumed, 1.0);
-  ArchiveReader reader(writer.written(), "");
-  reader(again);
-  reader.finish();
-  CHECK(check_paths(again, resumed, 1.0) == recorder.pieces().size());
-  resumed.run_until(4.5);
-  simulation->run_until(4.5);
-  CHECK(check_paths(again, resumed, 1.0) == recorder.pieces().size());
-}
-
-}  // namespace
-
-TEST_CASE("FlightRecorder: the pieces of a particle are its path, without gaps") {
-  check_whole_paths<2>();
-  check_whole_paths<3>();
-}
-
-TEST_CASE("FlightRecorder: a run that is recorded has the same hash") {
-  check_same_hash<2>();
-  check_same_hash<3>();
-}
-
-TEST_CASE("FlightRecorder: paths continue across changes of laws and of their span") {
-  check_across_changes<2>();
-  check_across_changes<3>();
-}
-
-TEST_CASE("FlightRecorder: the path of one particle is its part of all paths") {
-  check_one_particle<2>();
-  check_one_particle<3>();
-}
-
-TEST_CASE("FlightRecorder: a checkpoint keeps the paths") {
-  check_checkpoint<2>();
-  check_checkpoint<3>();
 }

@@ -8,7 +8,7 @@
 #include "engine/checkpoint/archive.h"
 #include "engine/picture/rotations.h"
 #include "tests/engine/measure/scenes.h"
-#include "tests/support/contact_laws.h"
+#include "tests/support/dimensions.h"
 
 using namespace clatter;
 using namespace clatter::testing;
@@ -121,22 +121,6 @@ TEST_CASE("Rotations: a sphere turns by its spins, one after the other") {
   for (std::size_t i = 0; i < turned.size(); ++i) {
     CHECK((found[i].quaternion().toRotationMatrix() - turned[i]).norm() < 1e-2);
   }
-}
-
-TEST_CASE_TEMPLATE("Rotations: the hash is the same, and they do not depend on when they are read",
-                   Dimension, Plane, Space) {
-  constexpr int D = Dimension::value;
-  const auto run = [] { return simulation_of<D>(rough_gas<D>(), 4); };
-  const auto plain = run(), watched = run(), read = run();
-  Rotations<D> rotations(*watched), often(*read);
-  plain->run_until(9.0);
-  watched->run_until(9.0);
-  for (int k = 1; k <= 90; ++k) {
-    read->run_until(0.1 * k);
-    often.rotations();
-  }
-  CHECK(watched->state_hash() == plain->state_hash());
-  CHECK(same(often, rotations));
 }
 
 TEST_CASE_TEMPLATE("Rotations: a resumed run has them, and other laws keep them", Dimension, Plane,

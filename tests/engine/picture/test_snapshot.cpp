@@ -45,17 +45,6 @@ TEST_CASE("Snapshot: of spheres it has three coordinates, six walls and vector s
   CHECK(snapshot.wall_displacement[kFront] != 0.0);
 }
 
-TEST_CASE("Snapshot: it has the box and its walls") {
-  const Snapshot snapshot = snapshot_of(*simulation_of<2>(rough_mixture(3), 52));
-  CHECK(snapshot.box == Vec2(9.0, 8.0));
-  CHECK(snapshot.diameter == 1.0);
-  REQUIRE(snapshot.walls[kLeft]);
-  CHECK(snapshot.walls[kLeft]->kind == WallKind::Driven);
-  REQUIRE(snapshot.walls[kTop]);
-  CHECK(snapshot.walls[kTop]->temperature == 2.0);
-  CHECK_FALSE(snapshot_of(*simulation_of<2>(gas(9.0, 8.0, 3, 1.0), 52)).walls[kLeft]);
-}
-
 TEST_CASE("Snapshot: moving walls are displaced, the others not") {
   Scene scene = gas(9.0, 8.0, 1, 1.0);
   scene.walls[kLeft] = Wall{.kind = WallKind::Sawtooth, .stroke = 0.5, .frequency = 0.25};
@@ -76,10 +65,4 @@ TEST_CASE("Snapshot: centres are in the box for any start of their flights") {
   simulation->run_until(1.25);  // at (-3.25, 12.25): one box back, three boxes up
   const Snapshot snapshot = snapshot_of(*simulation);
   CHECK(snapshot.positions.col(0) == Vec2(1.75, 0.25));
-}
-
-TEST_CASE("Snapshot: a gas may be empty") {
-  const Snapshot snapshot = snapshot_of(*simulation_of<2>(gas(5.0, 5.0, 0, 1.0), 1));
-  CHECK(snapshot.count() == 0);
-  CHECK(snapshot.temperature == 0.0);
 }

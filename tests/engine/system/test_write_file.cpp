@@ -40,19 +40,6 @@ TEST_CASE("Written files: the previous file is kept under another name if asked 
   CHECK(bytes_of(folder / "before") == "first");
 }
 
-TEST_CASE("Written files: a failure names the file and leaves the previous one") {
-  const TemporaryFolder folder;
-  CHECK_THROWS_WITH_AS(
-      write_file(folder / "missing/file", "bytes"),
-      ("cannot write " + (folder / "missing/file").string() + ": No such file or directory")
-          .c_str(),
-      RunError);
-  std::filesystem::create_directory(folder / "file");
-  CHECK_THROWS_WITH_AS(write_file(folder / "file", "bytes", folder / "before"),
-                       doctest::Contains("Is a directory"), RunError);
-  CHECK(names_in(folder / "") == std::set<std::string>{"file"});
-}
-
 TEST_CASE("Written files: a link stays, and its target is replaced") {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "results");

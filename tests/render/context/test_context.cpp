@@ -33,10 +33,6 @@ TEST_CASE("Context: the error of a missing OSMesa names EGL") {
   }
 }
 
-TEST_CASE("Context: Auto opens a context that works") {
-  CHECK_NOTHROW(open_context(Backend::Auto)->gl());
-}
-
 TEST_CASE("Context: missing functions of OpenGL are named") {
   auto nothing = [](const char*) -> void* { return nullptr; };
   CHECK_THROWS_WITH_AS(load_gl(nothing), doctest::Contains("glDrawArrays"), RunError);

@@ -147,20 +147,6 @@ TEST_CASE("Disk layer: a disk on a periodic border is drawn on both sides of the
   }
 }
 
-TEST_CASE("Disk layer: a disk's colour shows its velocity") {
-  const auto context = open_context(Backend::Auto);
-  const ColourScale scale{colour_map(Palette::Viridis)};
-  Snapshot snapshot = one_disk({60.0, 60.0}, 40.0);
-  snapshot.velocities = Vec2(0.3, 0.4);
-  auto centre = [&](ColourBy by) {
-    return pixel(draw(context->gl(), snapshot, kAlwaysPoints, by), 60, 60);
-  };
-  CHECK(centre(ColourBy::None) == kDarkTheme.disk);
-  CHECK(difference(centre(ColourBy::Speed), scale(0.5)) <= 1);
-  CHECK(difference(centre(ColourBy::VelocityX), scale(0.3)) <= 1);
-  CHECK(difference(centre(ColourBy::VelocityY), scale(0.4)) <= 1);
-}
-
 TEST_CASE("Disk layer: particles smaller than a pixel send the light of their area") {
   const auto context = open_context(Backend::Auto);
   const Image image = draw(context->gl(), one_disk({60.5, 60.5}, 0.5), kAlwaysPoints);

@@ -143,27 +143,6 @@ TEST_CASE("Overlay: a card covers the picture with its title, and fades out") {
   CHECK(card_opacity(3.0, 9.0) == 0.0);
 }
 
-TEST_CASE("Overlay: the lines of a card are in the middle of the picture") {
-  const auto context = open_context(Backend::Auto);
-  Renderer renderer(context->gl());
-  const Size size{1280, 720};
-  const Canvas canvas(context->gl(), size);
-  canvas.bind();
-  OverlayText text = kText;
-  text.card = 1.0;
-  renderer.draw(driven_box(), {{10.0, 12.5}, 40.0}, size, View{}, text);
-  const Image image = canvas.read();
-  int first = size.height, last = 0;
-  for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) {
-      if (difference(pixel(image, x, y), kDarkTheme.background) < 60) continue;
-      first = std::min(first, y);
-      last = std::max(last, y);
-    }
-  }
-  CHECK(std::abs(first + last - size.height) < 12);
-}
-
 TEST_CASE("Overlay: a card has its title in large letters above its caption, which is broken") {
   const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl());
@@ -307,28 +286,6 @@ TEST_CASE("Overlay: over a box of spheres texts are on a plate, and beside it th
   CHECK(plate(renderer.fit(snapshot, size, View{}, kText)) < 100);
   // The viewer is in the box, and some corners are behind.
   CHECK(plate({{5.0, 5.0}, 4.0, {.z = 5.0, .view_angle = 90.0}}) > 6 * kUnit * kUnit);
-}
-
-TEST_CASE("Overlay: two colour bars beside a box of spheres fill the height of the picture") {
-  const auto context = open_context(Backend::Auto);
-  Renderer renderer(context->gl());
-  const Size size{1280, 720};
-  Snapshot snapshot;
-  snapshot.box = Vec3(10.0, 10.0, 10.0);
-  snapshot.positions = snapshot.velocities = Vectors::Zero(3, 0);
-  snapshot.field = FieldMap{Quantity::Density, {1, 1, 1}, {0.5}};
-  View view = view_with_field();
-  const Camera camera = renderer.fit(snapshot, size, view, kText);
-  const Image with = draw(renderer, context->gl(), snapshot, camera, size, view);
-  view.overlay = false;
-  const Image without = draw(renderer, context->gl(), snapshot, camera, size, view);
-  int written = 0;
-  for (int y = size.height * 7 / 10; y < size.height * 9 / 10; ++y) {
-    for (int x = size.width * 3 / 4; x < size.width; ++x) {
-      written += !(pixel(with, x, y) == pixel(without, x, y));
-    }
-  }
-  CHECK(written > 1000);
 }
 
 TEST_CASE(

@@ -2,27 +2,10 @@
 
 #include <cmath>
 
-#include "render/contrast_maps.h"
 #include "render/layers/renderer.h"
 #include "tests/render/picture.h"
 
 namespace clatter {
-
-TEST_CASE("Renderer: a fixed range decides the colour, and the picture is opaque") {
-  const auto context = open_context(Backend::Auto);
-  Renderer renderer(context->gl());
-  Snapshot snapshot;
-  snapshot.box = Vec2(10.0, 10.0);
-  snapshot.positions = Vec2(5.0, 5.0);
-  snapshot.velocities = Vec2(2.0, 0.0);
-  View view;
-  view.overlay = false;
-  view.range = {ColourRange::Given, {0.0, 2000.0}};
-  const Image image = draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 10.0}, {100, 100}, view);
-  const Colour slowest = particle_map(view.palette, kDarkTheme.background).front();
-  CHECK(difference(pixel(image, 50, 50), slowest) <= 1);
-  for (std::size_t i = 3; i < image.rgba.size(); i += 4) REQUIRE(image.rgba[i] == 255);
-}
 
 TEST_CASE("Renderer: a picture has room for a wall that swings out of the box") {
   const auto context = open_context(Backend::Auto);
@@ -55,100 +38,6 @@ TEST_CASE("Renderer: a picture has room for a wall that swings out of the box") 
       CHECK(written == 0);
     }
   }
-}
-
-TEST_CASE("Renderer: spins are coloured by their sense") {
-  const auto context = open_context(Backend::Auto);
-  Renderer renderer(context->gl());
-  Snapshot snapshot;
-  snapshot.box = Vec2(10.0, 10.0);
-  snapshot.positions = as_columns<2>({{3.0, 5.0}, {5.0, 5.0}, {7.0, 5.0}});
-  snapshot.velocities = as_columns<2>({{9.0, 0.0}, {9.0, 0.0}, {9.0, 0.0}});
-  snapshot.spins = Eigen::RowVector3d(2.0, 0.0, -2.0);
-  View view;
-  view.overlay = false;
-  view.colour_by = ColourBy::Spin;
-  const Image image = draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 10.0}, {100, 100}, view);
-  const Colour forward = pixel(image, 30, 50), still = pixel(image, 50, 50);
-  const Colour backward = pixel(image, 70, 50);
-  CHECK(forward.red > forward.blue + 80);
-  CHECK(backward.blue > backward.red + 80);
-  CHECK(difference(still, {still.red, still.red, still.red}) < 20);
-  // With its legend.
-  view.overlay = true;
-  const Image with = draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 10.0}, {400, 400}, view);
-  CHECK(
-      difference(with, draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 10.0}, {400, 400}, [&] {
-                   View v = view;
-                   v.overlay = false;
-                   return v;
-                 }())) > 50);
-}
-
-TEST_CASE("Renderer: arrows over the box have the length of their legend") {
-  const auto context = open_context(Backend::Auto);
-  Renderer renderer(context->gl());
-  Snapshot snapshot;
-  snapshot.box = Vec2(10.0, 10.0);
-  snapshot.arrows =
-      ArrowMap{Quantity::Velocity, Vec2(4.0, 4.0), {{Vec2(5.0, 5.0), Vec2(1.5, 0.0)}}};
-  View view;
-  view.overlay = false;
-  const auto width_of_arrow = [&] {
-    const Image image =
-        draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 10.0}, {400, 400}, view);
-    int width = 0;
-    for (int x = 0; x < 400; ++x) width += difference(pixel(image, x, 200), kDarkTheme.text) < 100;
-    return width;
-  };
-  CHECK(width_of_arrow() == 0);  // not requested
-  view.arrows = Quantity::Velocity;
-  // The largest value fills a cell of 160 pixels.
-  CHECK(std::abs(width_of_arrow() - 160) <= 4);
-}
-
-TEST_CASE("Renderer: a theme sets the colours, and a background of the view precedes it") {
-  const auto context = open_context(Backend::Auto);
-  Renderer renderer(context->gl());
-  Snapshot snapshot;
-  snapshot.box = Vec2(10.0, 10.0);
-  snapshot.positions = Vec2(5.0, 5.0);
-  snapshot.velocities = Vec2(0.0, 0.0);
-  View view;
-  view.colour_by = ColourBy::None;
-  const auto drawn = [&] {
-    return draw(renderer, context->gl(), snapshot, {{5.0, 5.0}, 20.0}, {400, 400}, view);
-  };
-  for (const auto& [name, colours] : {std::pair(Theme::Dark, kDarkTheme),
-                                      {Theme::Light, kLightTheme},
-                                      {Theme::Projector, kProjectorTheme}}) {
-    view.theme = name;
-    const Image image = drawn();
-    CHECK(pixel(image, 399, 200) == colours.background);
-    CHECK(pixel(image, 200, 200) == colours.disk);
-    // Letters of the title.
-    int letters = 0;
-    for (int x = 0; x < 200; ++x) {
-      for (int y = 0; y < 40; ++y) letters += difference(pixel(image, x, y), colours.text) < 60;
-    }
-    CHECK(letters > 20);
-  }
-  view.background = Rgb{1, 2, 3};
-  CHECK(pixel(drawn(), 399, 200) == Colour{1, 2, 3});
-}
-
-TEST_CASE("Renderer: a grid is drawn where it is asked for") {
-  const auto context = open_context(Backend::Auto);
-  Renderer renderer(context->gl());
-  Snapshot snapshot;
-  snapshot.box = Vec2(10.0, 10.0);
-  View view;
-  view.overlay = false;
-  const Camera camera{{5.0, 5.0}, 20.0};
-  const Image without = draw(renderer, context->gl(), snapshot, camera, {400, 400}, view);
-  view.grid = true;
-  CHECK(difference(without, draw(renderer, context->gl(), snapshot, camera, {400, 400}, view)) >
-        20);
 }
 
 TEST_CASE("Renderer: a picture of several samples a pixel looks like the one of one sample") {
@@ -338,16 +227,6 @@ TEST_CASE("Renderer: trails of spheres are as long as asked for, fade out, and m
       width += difference(pixel(with, 592, y), kDarkTheme.background) > 20;
     CHECK(width == 2);
   }
-}
-
-TEST_CASE("Renderer: an empty box is drawn too") {
-  const auto context = open_context(Backend::Auto);
-  Renderer renderer(context->gl());
-  Snapshot snapshot;
-  snapshot.box = Vec2(10.0, 10.0);
-  const Size size{320, 200};
-  CHECK_NOTHROW(draw(renderer, context->gl(), snapshot, renderer.fit(snapshot, size, View{}, kText),
-                     size, View{}));
 }
 
 }  // namespace clatter

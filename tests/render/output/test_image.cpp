@@ -132,9 +132,7 @@ TEST_CASE("Image: a PNG file with damaged texts is refused, whatever length it c
   const std::vector<unsigned char> sound =
       encode_png(image, std::vector<PngText>{{"Scene", "title = 'a'"}});
   const auto text_of = [&](const std::vector<unsigned char>& bytes) {
-    std::ofstream(folder / "a.png", std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()),
-               static_cast<std::streamsize>(bytes.size()));
+    write_bytes(folder / "a.png", std::string(bytes.begin(), bytes.end()));
     return png_text(folder / "a.png", "Scene");
   };
   REQUIRE(text_of(sound) == "title = 'a'");
