@@ -1,6 +1,6 @@
 #include "engine/error.h"
 
-#include "engine/printable.h"
+#include "engine/text.h"
 
 namespace clatter {
 

@@ -28,4 +28,8 @@ std::string particle_numbers(int count);
 /// The correct spelling of `word`: the most similar candidate. Empty if no candidate is similar.
 std::string_view near_miss(std::string_view word, std::span<const std::string> candidates);
 
+/// The text with its control characters as \u00XX. It then is one line, of full length also as a C
+/// string.
+std::string printable(std::string_view text);
+
 }  // namespace clatter

@@ -1,5 +1,3 @@
-#include "app/bench/fields.h"
-
 #include <fmt/format.h>
 #include <fmt/printf.h>
 
@@ -9,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "app/bench/tables.h"
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
 #include "engine/measure/balance.h"

@@ -1,5 +1,3 @@
-#include "app/bench/render.h"
-
 #include <fmt/printf.h>
 
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/bench/tables.h"
 #include "app/runs/run.h"
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"

@@ -1,5 +1,3 @@
-#include "app/bench/timeline.h"
-
 #include <fmt/printf.h>
 
 #include <algorithm>
@@ -8,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "app/bench/window.h"
+#include "app/bench/tables.h"
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
 #include "engine/live/watched_run.h"

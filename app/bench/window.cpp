@@ -1,11 +1,10 @@
-#include "app/bench/window.h"
-
 #include <fmt/printf.h>
+
+#include "app/bench/tables.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <imgui.h>
-#include <time.h>
 
 #include <algorithm>
 #include <atomic>
@@ -21,6 +20,7 @@
 #include "app/view/gui.h"
 #include "engine/run/scheduled_run.h"
 #include "engine/scene/scene_file.h"
+#include "engine/system/usage.h"
 #include "engine/system/write_file.h"
 #include "render/context/glfw_context.h"
 
@@ -51,12 +51,6 @@ Gl idle_gl() {
   gl.CheckFramebufferStatus = [](GLenum) { return GLenum{GL_FRAMEBUFFER_COMPLETE}; };
   gl.GetIntegerv = [](GLenum, GLint* value) { *value = 16384; };
   return gl;
-}
-
-double thread_cpu_seconds() {
-  timespec time;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 // The times of pictures with a new frame of the engine, in seconds, sorted.

@@ -15,8 +15,8 @@
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
 #include "engine/error.h"
-#include "engine/printable.h"
 #include "engine/stop_request.h"
+#include "engine/text.h"
 
 namespace clatter {
 

@@ -94,7 +94,7 @@ class SweepFolder {
   [[noreturn]] void fail_to_lock() const;
 
   std::filesystem::path folder_;
-  FileDescriptor locks_;  // byte ID of this file is locked for run ID; negative: not open yet
+  FileDescriptor locks_;  // byte ID of this file is locked for run ID; none: not open yet
 };
 
 }  // namespace clatter

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/dynamics/foreseen_event.h"
 #include "engine/dynamics/large_array.h"
+#include "engine/dynamics/tile_record.h"
 
 namespace clatter {
 

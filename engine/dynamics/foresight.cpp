@@ -99,12 +99,12 @@ void Foresight<D>::sort_into_blocks(const ParticleStates<D>& gas) {
     strides[axis] = stride;
     stride *= block_counts_[axis];
   }
+  const Domain<D> domain = model_.domain();
   in_parallel(parts, parts, [&](std::size_t k, std::size_t) {
     auto& counts = benches_[k]->offsets;
     counts.assign(blocks, 0);
     for (std::size_t i = part(k); i < part(k + 1); ++i) {
-      const Vec<D> place =
-          model_.domain().wrapped(gas.particles[i].flight.at(end_, model_.gravity));
+      const Vec<D> place = domain.wrapped(gas.particles[i].flight.at(end_, model_.gravity));
       const auto block =
           static_cast<std::uint32_t>(cell_of<D>(place, block_widths_, block_counts_).dot(strides));
       block_of_[i] = block;
@@ -180,6 +180,7 @@ void Foresight<D>::gather(const ParticleStates<D>& gas, const Tile& tile,
     }
   }
   const IntVec<D> extent = to - from;
+  const Domain<D> domain = model_.domain();
   for (int k = 0; k < extent.prod(); ++k) {
     int rest = k, index = 0, stride = 1;
     bool own = true;
@@ -199,8 +200,8 @@ void Foresight<D>::gather(const ParticleStates<D>& gas, const Tile& tile,
       if (p + kAhead < order_.size()) prefetch(gas.particles[order_[p + kAhead]]);
       const std::uint32_t number = order_[p];
       const Vec<D> r = gas.particles[number].flight.at(end_, model_.gravity);
-      const Vec<D> image = model_.domain().image_at(r) - boxes;
-      const Vec<D> home = r - model_.domain().shift(image);
+      const Vec<D> image = domain.image_at(r) - boxes;
+      const Vec<D> home = r - domain.shift(image);
       const bool inside = ((home - subdomain.lower).array() >= 0.0).all() &&
                           ((subdomain.upper - home).array() >= 0.0).all();
       if (!own && !inside) continue;

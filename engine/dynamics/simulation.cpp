@@ -1,116 +1,21 @@
 #include "engine/dynamics/simulation.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "engine/dynamics/collapse.h"
 #include "engine/dynamics/prefetch.h"
+#include "engine/dynamics/run_start.h"
 #include "engine/dynamics/state_hash.h"
-#include "engine/error.h"
-#include "engine/physics/fraction.h"
 #include "engine/physics/theory.h"
 
 namespace clatter {
 
-// Interval of kicks; 0 without bulk driving.
-template <int D>
-static double kick_interval(const Model<D>& model) {
-  return model.bulk_drive ? model.bulk_drive->interval : 0.0;
-}
-
-template <int D>
-static RunState<D> fresh(const Model<D>& model, State<D> state, double start_time) {
-  RunState<D> saved;
-  saved.gravity = model.gravity;
-  saved.wall_motions = wall_motions<D>(model);
-  saved.base = {start_time, 0.0};
-  saved.kick_interval = kick_interval<D>(model);
-  saved.kick_origin = start_time;
-  saved.until_base_moves = std::max<std::uint64_t>(kMinEventsPerBase, state.positions.size());
-  saved.flights.reserve(state.positions.size());
-  for (std::size_t i = 0; i < state.positions.size(); ++i) {
-    saved.flights.push_back({state.positions[i], state.velocities[i], 0.0, 0});
-    saved.start_speed = std::max(saved.start_speed, state.velocities[i].norm());
-  }
-  saved.spins = std::move(state.spins);
-  state = {};  // frees the memory before the simulation allocates its own
-  return saved;
-}
-
-// A clock with its base at the time of the state.
-template <int D>
-static Clock clock_at(const RunState<D>& saved) {
-  Clock clock(saved.base);
-  clock.advance(saved.now);
-  return clock;
-}
-
-// The shifts of phases that keep walls at their places if their frequencies change now. Rest is a
-// motion of frequency 0.
-template <int D>
-static std::array<double, 2 * D> phase_shifts(const Model<D>& model, const RunState<D>& saved) {
-  const std::array<WallMotion, 2 * D> motions = wall_motions<D>(model);
-  std::array<double, 2 * D> shifts = saved.phase_shifts;
-  const Clock now = clock_at(saved);
-  for (int side = 0; side < 2 * D; ++side) {
-    const double before = saved.wall_motions[side].frequency, after = motions[side].frequency;
-    if (!model.walls[side] || !model.walls[side]->moves()) {
-      shifts[side] = 0.0;
-    } else if (before != after) {
-      shifts[side] = fraction(shifts[side] + now.periods(before, 0.0) - now.periods(after, 0.0));
-    }
-  }
-  return shifts;
-}
-
-// The error of a start with overlaps. If walls have changed their motion, they are the cause. Just
-// after the beginning of a period a wall is at its rest position, whatever its stroke.
-template <int D>
-static PhysicalStop overlap_at_start(const Model<D>& model, const RunState<D>& saved,
-                                     double overlap) {
-  constexpr double kJustAfter = 1e-4;  // periods
-  const std::string deepest = fmt::format("by {:.3g} diameters", overlap);
-  const Clock now = clock_at(saved);
-  const double time = now.absolute(0.0);
-  std::string changed, remedy = "make a smaller change";
-  for (int side = 0; side < 2 * D; ++side) {
-    const WallMotion& before = saved.wall_motions[side];
-    const WallMotion after = wall_motions<D>(model)[side];
-    if (before == after) continue;
-    changed += std::string(changed.empty() ? "" : ", ") + "walls." + kSideNames[side];
-    if (before.frequency == 0.0 || before.phase != after.phase) continue;
-    const double phase = now.periods(before.frequency, before.phase + saved.phase_shifts[side]);
-    remedy +=
-        fmt::format(", or change walls.{} without a ramp at its rest position, as at t = {:.9g}",
-                    kSideNames[side], time + (1.0 + kJustAfter - phase) / before.frequency);
-  }
-  if (!changed.empty()) {
-    return PhysicalStop(
-        fmt::format("the change of {} at t = {:.9g} moves a wall into a particle, {}; {}", changed,
-                    time, deepest, remedy));
-  }
-  return PhysicalStop("particles overlap each other or a wall at the start, the deepest " +
-                      deepest + "; move them apart");
-}
-
 template <int D>
 Simulation<D>::Simulation(const Model<D>& model, State<D> state, double start_time,
                           const StopRequest& stop)
-    : Simulation(model, fresh<D>(model, std::move(state), start_time), stop) {}
-
-// Predictions along a flight begin at its start. Under changed laws flights must start now.
-template <int D>
-static void restart_changed_flights(const Model<D>& model, RunState<D>& saved) {
-  if (keeps_flights<D>(saved, model)) return;
-  for (Flight<D>& flight : saved.flights) {
-    flight = {flight.at(saved.now, saved.gravity), flight.velocity_at(saved.now, saved.gravity),
-              saved.now, flight.number};
-  }
-}
+    : Simulation(model, first_state<D>(model, std::move(state), start_time), stop) {}
 
 template <int D>
 Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved, const StopRequest& stop)
@@ -120,7 +25,7 @@ Simulation<D>::Simulation(const Model<D>& model, RunState<D> saved, const StopRe
 
 template <int D>
 Simulation<D>::Simulation(InParts, const Model<D>& model, State<D> state, double start_time)
-    : Simulation(InParts(), model, fresh<D>(model, std::move(state), start_time)) {}
+    : Simulation(InParts(), model, first_state<D>(model, std::move(state), start_time)) {}
 
 // A smooth contact keeps spins, so particles keep them under smooth laws.
 template <int D>
@@ -155,8 +60,8 @@ void Simulation<D>::restart(const Model<D>& model, RunState<D> saved) {
 // Kicks with another interval are counted from now.
 template <int D>
 void Simulation<D>::set_kicks() {
-  if (kick_times_.interval() == kick_interval<D>(model_)) return;
-  kick_times_ = RegularTimes(time(), kick_interval<D>(model_));
+  if (kick_times_.interval() == model_.kick_interval()) return;
+  kick_times_ = RegularTimes(time(), model_.kick_interval());
   kicks_since_origin_ = 0;
 }
 
@@ -545,7 +450,7 @@ RunState<D> Simulation<D>::save_without_particles() const {
   saved.piston = boundary_.piston();
   saved.base = clock_.base();
   saved.start_speed = start_speed_;
-  saved.kick_interval = kick_interval<D>(model_);
+  saved.kick_interval = model_.kick_interval();
   saved.kick_origin = kick_times_.start();
   saved.kicks_since_origin = kicks_since_origin_;
   saved.now = loop_.now();

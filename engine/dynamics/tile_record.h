@@ -4,10 +4,19 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/dynamics/foreseen_event.h"
+#include "engine/dynamics/event.h"
 #include "engine/vec.h"
 
 namespace clatter {
+
+/// A collision of a particle with a partner, found before the run reaches its time.
+template <int D>
+struct ForeseenEvent {
+  Event event;                          ///< with original numbers; a particle or a wall as partner
+  std::uint32_t flight = 0;             ///< number of the particle's flight that ends here
+  std::uint32_t partner_flight = 0;     ///< the same of the partner; 0 for a wall
+  IntVec<D> image = IntVec<D>::Zero();  ///< as Plan::image
+};
 
 /// Added to the number of a flight that leaves a tile, so that it is no flight of the gas.
 inline constexpr std::uint32_t kNoFlight = std::uint32_t{1} << 31;

@@ -4,7 +4,7 @@
 
 #include "engine/initial/random_insertion.h"
 #include "engine/initial/start_state.h"
-#include "engine/physics/temperature.h"
+#include "engine/physics/state.h"
 
 namespace clatter {
 

@@ -19,8 +19,8 @@ namespace {
 template <int D>
 class FreeRoom {
  public:
-  FreeRoom(const Model<D>& model, const Scene& laws, const RunState<D>& state, std::size_t count)
-      : model_(model), near_(model, model.diameter, count), low_(laws.clear_corner()) {
+  FreeRoom(const Model<D>& model, const Scene& laws, const RunState<D>& state)
+      : model_(model), near_(model.domain(), model.diameter), low_(laws.clear_corner()) {
     high_ = low_ + Vec<D>(laws.clear_box());
     if (state.piston) high_[0] -= state.piston->travel(Clock(state.base).absolute(state.now));
     for (const Flight<D>& flight : state.flights) {
@@ -65,7 +65,7 @@ std::vector<PuffParticle<D>> puff_particles(const RunState<D>& state, const Puff
   constexpr int kTries = 10'000;  // of a particle in succession
   const Model<D> model = model_of<D>(laws, seed);
   const std::size_t before = state.flights.size();
-  FreeRoom<D> room(model, laws, state, before + static_cast<std::size_t>(puff.count));
+  FreeRoom<D> room(model, laws, state);
   Random random(seed, Stream::Puff, static_cast<std::uint32_t>(state.counts.puffs), 0);
   const Vec<D> centre = puff.centre;
   const Vec<D> mean = puff.velocity ? Vec<D>(*puff.velocity) : Vec<D>(Vec<D>::Zero());

@@ -18,7 +18,9 @@ struct RandomInsertion<D>::Work {
   virtual bool place_first(const Vec<D>& point) = 0;
   // As advance().
   virtual bool place(std::size_t count, Random& random, const StopRequest& pause) = 0;
-  virtual std::vector<Vec<D>>& placed() = 0;
+  virtual std::size_t placed() const = 0;
+  // The centres. None remain.
+  virtual std::vector<Vec<D>> take() = 0;
 };
 
 namespace {
@@ -76,7 +78,8 @@ class Insertion : public RandomInsertion<D>::Work {
     return place_at(point, voxel);
   }
 
-  std::vector<Vec<D>>& placed() override { return placed_; }
+  std::size_t placed() const override { return placed_.size(); }
+  std::vector<Vec<D>> take() override { return std::move(placed_); }
 
  private:
   static constexpr std::uint32_t kEmpty = 0xffffffffu;
@@ -208,15 +211,15 @@ class Insertion : public RandomInsertion<D>::Work {
 template <int D>
 class SparseInsertion : public RandomInsertion<D>::Work {
  public:
-  SparseInsertion(const Room<D>& room, std::size_t count)
-      : model_(empty(room)), near_(model_, room.diameter, count) {}
+  explicit SparseInsertion(const Room<D>& room)
+      : room_(room), near_(domain_of(room), room.diameter) {}
 
   bool place(std::size_t count, Random& random, const StopRequest& pause) override {
-    while (placed().size() < count) {
-      if (placed().size() % kStepsPerQuestion == 0 && pause.made()) return false;
+    while (placed() < count) {
+      if (placed() % kStepsPerQuestion == 0 && pause.made()) return false;
       Vec<D> point;
       for (int axis = 0; axis < D; ++axis) {
-        point[axis] = low(axis) + random.uniform() * (model_.box[axis] - 2.0 * low(axis));
+        point[axis] = low(axis) + random.uniform() * (room_.box[axis] - 2.0 * low(axis));
       }
       place_at(point);
     }
@@ -225,33 +228,30 @@ class SparseInsertion : public RandomInsertion<D>::Work {
 
   bool place_first(const Vec<D>& point) override {
     for (int axis = 0; axis < D; ++axis) {
-      if (!(point[axis] >= low(axis) && point[axis] < model_.box[axis] - low(axis))) return false;
+      if (!(point[axis] >= low(axis) && point[axis] < room_.box[axis] - low(axis))) return false;
     }
     return place_at(point);
   }
 
-  std::vector<Vec<D>>& placed() override { return near_.positions(); }
+  std::size_t placed() const override { return near_.positions().size(); }
+  std::vector<Vec<D>> take() override { return near_.take(); }
 
  private:
-  static Model<D> empty(const Room<D>& room) {
-    Model<D> model;
-    model.box = room.box;
-    model.diameter = room.diameter;
-    for (int side = 0; side < 2 * D; ++side) {
-      if (room.walled[side / 2]) model.walls[side] = Wall{};
-    }
-    return model;
+  static Domain<D> domain_of(const Room<D>& room) {
+    Domain<D> domain{.box = room.box};
+    for (int axis = 0; axis < D; ++axis) domain.periodic[axis] = !room.walled[axis];
+    return domain;
   }
 
-  double low(int axis) const { return model_.periodic(axis) ? 0.0 : model_.wall_plane(axis, 0); }
+  double low(int axis) const { return room_.walled[axis] ? 0.5 * room_.diameter : 0.0; }
 
   bool place_at(const Vec<D>& point) {
-    if (near_.any_within(point, model_.diameter)) return false;
+    if (near_.any_within(point, room_.diameter)) return false;
     near_.add(point);
     return true;
   }
 
-  Model<D> model_;
+  Room<D> room_;
   NearParticles<D> near_;
 };
 
@@ -261,7 +261,7 @@ std::unique_ptr<typename RandomInsertion<D>::Work> work_in(const Room<D>& room, 
   const double cube =
       D == 2 ? room.diameter * room.diameter : room.diameter * room.diameter * room.diameter;
   if (room.box.prod() > kSparse * cube * static_cast<double>(count)) {
-    return std::make_unique<SparseInsertion<D>>(room, count);
+    return std::make_unique<SparseInsertion<D>>(room);
   }
   return std::make_unique<Insertion<D>>(room);
 }
@@ -287,13 +287,13 @@ bool RandomInsertion<D>::advance(const StopRequest& pause) {
 
 template <int D>
 std::size_t RandomInsertion<D>::placed() const {
-  return work_->placed().size();
+  return work_->placed();
 }
 
 template <int D>
 std::vector<Vec<D>> RandomInsertion<D>::take() {
   if (placed() < count_) return {};
-  return std::move(work_->placed());
+  return work_->take();
 }
 
 template <int D>

@@ -64,7 +64,7 @@ struct BondOrders {
 };
 static BondOrders bond_orders(const Model<2>& model, const std::vector<Vec2>& positions) {
   const double reach = 1.5 * model.diameter;
-  NearParticles<2> near(model, reach, positions.size());
+  NearParticles<2> near(model.domain(), reach);
   std::complex<double> fourth = 0.0, sixth = 0.0;  // sums of these powers of exp(i theta)
   double bonds = 0.0;
   for (const Vec2& r : positions) {

@@ -7,14 +7,14 @@
 
 namespace clatter {
 
-/// The space of a gas: a box, and its periodic images along axes without walls. Images have whole
-/// numbers of boxes, 0 along axes with walls.
+/// The space of a gas: a box, and its periodic images along axes without walls. An image is
+/// given by whole numbers of box lengths, 0 along axes with walls.
 template <int D>
 struct Domain {
   Vec<D> box = Vec<D>::Zero();     ///< edge lengths
   std::array<bool, D> periodic{};  ///< by axis; false: two walls
 
-  /// The image with a position.
+  /// The image that contains a position.
   Vec<D> image_at(const Vec<D>& position) const {
     Vec<D> image = Vec<D>::Zero();
     for (int axis = 0; axis < D; ++axis) {

@@ -36,6 +36,8 @@ struct Model {
   bool dissipates() const { return restitution < 1.0 || !roughness.conserves(); }
   /// Whether there is gravity, so that particles fly along parabolas.
   bool has_gravity() const { return (gravity.array() != 0.0).any(); }
+  /// Time between kicks; 0 without bulk driving.
+  double kick_interval() const { return bulk_drive ? bulk_drive->interval : 0.0; }
   /// Whether the box is periodic along an axis.
   bool periodic(int axis) const { return !walls[2 * axis]; }
   /// The box and its periodic images.

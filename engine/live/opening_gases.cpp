@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "engine/initial/adapt_to_scene.h"
-#include "engine/physics/temperature.h"
+#include "engine/physics/state.h"
 
 namespace clatter {
 

@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "engine/error.h"
-#include "engine/physics/temperature.h"
+#include "engine/physics/state.h"
 #include "engine/scene/key_lister.h"
 #include "engine/scene/key_reader.h"
 #include "engine/scene/key_writer.h"

@@ -215,7 +215,7 @@ void Reader<D>::refuse_pair(std::size_t a, std::size_t b, double distance) const
 
 template <int D>
 void Reader<D>::refuse_overlaps(const std::vector<Vec<D>>& centres) const {
-  NearParticles<D> near(model_of<D>(scene_, 0), 1.0, centres.size());
+  NearParticles<D> near(model_of<D>(scene_, 0).domain(), 1.0);
   for (std::uint32_t i = 0; i < centres.size(); ++i) {
     near.visit(centres[i], [&](std::uint32_t j, const Vec<D>& way) {
       const double distance = way.norm();

@@ -4,8 +4,8 @@
 #include <poll.h>
 #include <spawn.h>
 #include <sys/ioctl.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -160,30 +160,23 @@ void wait_for_any(std::span<const ChildProcess* const> processes, std::chrono::m
 }
 
 // At most `size` bytes of a file from `begin`.
-static std::string read_at(const FileDescriptor& file, off_t begin, off_t size) {
-  std::string text(static_cast<std::size_t>(size), '\0');
-  const ssize_t got = pread(file.get(), text.data(), text.size(), begin);
-  text.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+static std::string text_at(const FileDescriptor& file, std::uint64_t begin, std::uint64_t size) {
+  std::string text(size, '\0');
+  text.resize(file.read_at(begin, text));
   return text;
 }
 
-static off_t size_of(const FileDescriptor& file) {
-  struct stat about {};
-  fstat(file.get(), &about);
-  return about.st_size;
-}
-
 std::string ChildProcess::new_words() {
-  const std::string text = read_at(errors_, read_, size_of(errors_) - read_);
-  read_ += static_cast<off_t>(text.size());
+  const std::string text = text_at(errors_, read_, errors_.size().value_or(read_) - read_);
+  read_ += text.size();
   return text;
 }
 
 std::string ChildProcess::last_words() const {
-  constexpr off_t kLongest = 1000;
-  const off_t size = size_of(errors_);
-  const off_t length = std::min(size, kLongest);
-  std::string text = read_at(errors_, size - length, length);
+  constexpr std::uint64_t kLongest = 1000;
+  const std::uint64_t size = errors_.size().value_or(0);
+  const std::uint64_t length = std::min(size, kLongest);
+  std::string text = text_at(errors_, size - length, length);
   while (!text.empty() && text.back() == '\n') text.pop_back();
   if (text.empty() && hung_) return "it does not read its input";
   return text.empty() ? signal() : text;

@@ -71,11 +71,11 @@ class ChildProcess {
   bool hangs(Clock::time_point& last_read);
   int unread() const;
 
-  pid_t pid_ = -1;         ///< -1: has ended
-  int status_ = 0;         ///< status of its end, from waitpid()
-  FileDescriptor input_;   ///< our end of the pipe
-  FileDescriptor errors_;  ///< its standard error: a file, so that it never blocks
-  off_t read_ = 0;         ///< bytes of it that new_words() has returned
+  pid_t pid_ = -1;          ///< -1: has ended
+  int status_ = 0;          ///< status of its end, from waitpid()
+  FileDescriptor input_;    ///< our end of the pipe
+  FileDescriptor errors_;   ///< its standard error: a file, so that it never blocks
+  std::uint64_t read_ = 0;  ///< bytes of it that new_words() has returned
   StopRequest stop_;
   bool hung_ = false;  ///< whether it was given up
 };

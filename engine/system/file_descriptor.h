@@ -10,7 +10,7 @@
 
 namespace clatter {
 
-/// Owns an open file or folder. Child processes do not get it.
+/// Owns an open file or folder.
 class FileDescriptor {
  public:
   /// Owns a descriptor of the system; negative: none.
@@ -28,7 +28,7 @@ class FileDescriptor {
 
   /// Writes all bytes; false with errno on failure.
   bool write_all(std::span<const std::byte> bytes);
-  /// Writes all bytes at a place, counted from the begin of the file; false with errno on failure.
+  /// Writes all bytes at a place, counted from the start of the file; false with errno on failure.
   bool write_at(std::uint64_t place, std::string_view bytes);
   /// Reads bytes from a place on. Returns their number, 0 at the end of the file and on failure.
   std::size_t read_at(std::uint64_t place, std::span<char> bytes) const;
@@ -57,6 +57,8 @@ class FileDescriptor {
  private:
   int descriptor_;
 };
+
+// Child processes do not get the descriptors that these functions open.
 
 /// Opens a file for writing, and makes it if it is missing and `make` is set. None with errno on
 /// failure.

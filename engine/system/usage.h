@@ -7,6 +7,9 @@ namespace clatter {
 /// CPU time of this process up to now, in seconds.
 double cpu_seconds();
 
+/// CPU time of this thread up to now, in seconds.
+double thread_cpu_seconds();
+
 /// CPU time of all child processes that have ended, in seconds.
 double child_cpu_seconds();
 

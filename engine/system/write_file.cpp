@@ -97,7 +97,7 @@ bool is_hidden(std::string_view name) {
 }
 
 // True if the file system has locks and no other process has one on this file.
-bool lock(const FileDescriptor& file) {
+bool has_lock(const FileDescriptor& file) {
   return flock(file.get(), LOCK_EX | LOCK_NB) == 0;
 }
 
@@ -119,7 +119,7 @@ void remove_leftovers(const std::filesystem::path& folder) {
     const std::filesystem::path& path = entry.path();
     if (!is_hidden(path.filename().native()) || !entry.is_regular_file(ignored)) continue;
     const FileDescriptor file(open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC));
-    if (file && lock(file) && is_at(file, path)) unlink(path.c_str());
+    if (file && has_lock(file) && is_at(file, path)) unlink(path.c_str());
   }
 }
 
@@ -132,7 +132,7 @@ NewFile new_file_beside(const std::filesystem::path& target) {
     FileDescriptor file(open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (!file && errno == EEXIST) continue;
     // Another run may have taken the file for a leftover before it was locked.
-    const bool lost = file && !lock(file) && errno == EWOULDBLOCK;
+    const bool lost = file && !file.lock();
     if (!file || (!lost && is_at(file, path))) return {path, std::move(file)};
   }
 }

@@ -21,7 +21,7 @@ bool is_special(const std::filesystem::path& path);
 /// The path behind a chain of links. A link stays where a chain has no end.
 std::filesystem::path target_of(std::filesystem::path path);
 
-/// Whether this process may make files in a folder.
+/// Whether this process may make files in a folder; false with errno.
 bool may_write_in(const std::filesystem::path& folder);
 
 /// True if `path` still names the open file or folder.

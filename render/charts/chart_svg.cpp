@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/printable.h"
+#include "engine/text.h"
 #include "render/charts/chart_layout.h"
 
 namespace clatter {

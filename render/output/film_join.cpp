@@ -141,7 +141,10 @@ struct TemporaryFile : NewFile {
   }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() { unlink(path.c_str()); }
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+  }
 };
 
 }  // namespace
@@ -202,7 +205,8 @@ void join_films(const PartsFolder& folder, const std::vector<FilmPart>& parts, d
       copy_films(folder, parts, fps, texts, sound, format, list, joined, encoder);
     }
   } catch (const RunError&) {
-    unlink(joined.path.c_str());
+    std::error_code ignored;
+    std::filesystem::remove(joined.path, ignored);
     throw;
   }
 }

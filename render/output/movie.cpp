@@ -167,13 +167,14 @@ void Movie::start_piece() {
   // An encoder may open its file after its run was killed. This name keeps it from the file of the
   // restarted run.
   const std::string name = name_while_open(file_, piece.string());
+  std::error_code ignored;
   try {
     encoder_ = std::make_unique<ChildProcess>(
         encoding_command(program_, *format_, options_,
                          PartsFolder{folder_, held_}.safe_name(kTexts), name),
         Interrupts::Shielded, options_.stop);
   } catch (const RunError& error) {
-    unlink(piece.c_str());
+    std::filesystem::remove(piece, ignored);
     fail(with_install_advice(error));
   }
 }
@@ -220,7 +221,8 @@ void Movie::finish(Ending ending) {
   if (next_ > options_.begin) join();
   if (ending == Ending::Cut) return;
   remove_own_files();
-  rmdir(folder_.c_str());
+  std::error_code ignored;
+  std::filesystem::remove(folder_, ignored);
 }
 
 // The pieces of the film so far, in order. All but the first begin at a multiple of kPiece.
@@ -272,13 +274,14 @@ void Movie::require_unchanged(const std::vector<FilmPart>& pieces) {
 
 // Kills the current encoder, and removes files and folders without pictures.
 void Movie::tidy() {
+  std::error_code ignored;
   if (encoder_) {
     encoder_->kill();
     const std::filesystem::path piece = piece_path(piece_);
-    if (pictures_in(piece, program_) == 0) unlink(piece.c_str());
+    if (pictures_in(piece, program_) == 0) std::filesystem::remove(piece, ignored);
   }
-  unlink((folder_ / kTexts).c_str());
-  rmdir(folder_.c_str());
+  std::filesystem::remove(folder_ / kTexts, ignored);
+  std::filesystem::remove(folder_, ignored);
 }
 
 // An encoder may lose pictures without an error, for example if the disk is full at the end.

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "app/results/event_log.h"
-#include "engine/system/growing_file.h"
 #include "engine/error.h"
 #include "engine/physics/random.h"
+#include "engine/system/growing_file.h"
 #include "tests/support/shell.h"
 #include "tests/support/tables.h"
 

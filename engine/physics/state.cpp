@@ -1,4 +1,4 @@
-#include "engine/physics/temperature.h"
+#include "engine/physics/state.h"
 
 namespace clatter {
 
