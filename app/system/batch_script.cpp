@@ -108,7 +108,7 @@ void require_array_size(const ArrayJob& job, std::optional<std::size_t> most, co
 }
 
 void submit_batch(const std::filesystem::path& script) {
-  execlp("sbatch", "sbatch", script.c_str(), nullptr);
+  continue_as("sbatch", script.c_str());
   throw RunError(std::string("cannot start sbatch: ") + std::strerror(errno) + "; the script is " +
                  script.string());
 }

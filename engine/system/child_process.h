@@ -80,4 +80,8 @@ class ChildProcess {
   bool hung_ = false;  ///< whether it was given up
 };
 
+/// Replaces this program by another one from the PATH with one argument. Returns with errno on
+/// failure.
+void continue_as(const char* program, const char* argument);
+
 }  // namespace clatter
