@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "engine/laws/model.h"
+#include "engine/physics/state.h"
 
 namespace clatter {
 
