@@ -27,21 +27,21 @@ void EngineWork::execute_all() {
   std::vector<Command> asked = commands_.take();
   bool any = !asked.empty();
   std::ranges::move(asked, std::back_inserter(waiting_));
-  if (opening_) abandon();
-  if (any && rewinder_) attempt([this] { end_rewind(); });
-  if (goes() && !waiting_.empty() && std::holds_alternative<command::Jump>(waiting_.front())) {
-    stay();
+  if (opens()) abandon();
+  if (any) attempt([this] { end_rewind(); });
+  if (is_away() && !waiting_.empty() && std::holds_alternative<command::Jump>(waiting_.front())) {
+    errand_ = {};
   }
-  while (!opening_ && !goes() && !waiting_.empty() && !commands_.closed()) {
+  while (!has_errand() && !waiting_.empty() && !commands_.closed()) {
     const Command next = std::move(waiting_.front());
     waiting_.pop_front();
     any = true;
     if (waiting_.empty() || !supersedes(waiting_.front(), next)) {
       attempt([&] { std::visit([this](const auto& command) { execute(command); }, next); });
     }
-    if (!opening_) ++handled_;
+    if (!opens()) ++handled_;
   }
-  if (any && !goes()) publish();
+  if (any && !is_away()) publish();
 }
 
 // Another scene, or CancelOpen, ends the opening and the commands between.
@@ -52,31 +52,33 @@ void EngineWork::abandon() {
   };
   const auto last = std::ranges::find_if(waiting_.rbegin(), waiting_.rend(), ends).base();
   if (last == waiting_.begin()) return;
-  opening_.reset();
+  errand_ = {};
   handled_ += static_cast<std::uint64_t>(last - waiting_.begin());
   waiting_.erase(waiting_.begin(), last - 1);
 }
 
 void EngineWork::execute(const command::Play& asked) {
   halt();
-  plays_ = asked.on;
-  until_ = asked.until;
-  if (gases_ && !plays_) gases_->settle();
+  if (asked.on) {
+    motion_ = Playing{.until = asked.until};
+  } else if (gases_) {
+    gases_->settle();
+  }
 }
 
 void EngineWork::execute(const command::PlayBackwards&) {
   halt();
-  plays_ = backwards_ = gases_ && time() > 0.0;
+  if (gases_ && time() > 0.0) motion_.emplace<PlayingBackwards>();
 }
 
 void EngineWork::execute(const command::Step& asked) {
   halt();
-  if (gases_) step_to_ = time() + asked.duration;
+  if (gases_) motion_ = Stepping{.to = time() + asked.duration};
 }
 
 void EngineWork::execute(const command::StepCollision&) {
   halt();
-  if (gases_) to_collision_ = gases_->counts().pair_collisions + 1;
+  if (gases_) motion_ = SteppingToCollision{.number = gases_->counts().pair_collisions + 1};
 }
 
 void EngineWork::execute(const command::Jump& asked) {
@@ -86,22 +88,22 @@ void EngineWork::execute(const command::Jump& asked) {
 
 void EngineWork::execute(const command::StepBack&) {
   halt();
-  searches_ = gases_ != nullptr;
+  if (gases_) errand_ = Searching{};
 }
 
 void EngineWork::execute(const command::MoveChange& asked) {
   halt();
-  if (gases_) going_to_ = gases_->move_change(asked.number, asked.time);
+  if (gases_) errand_ = Travelling{.to = gases_->move_change(asked.number, asked.time)};
 }
 
 void EngineWork::execute(const command::ReplaceChanges& asked) {
   halt();
-  if (gases_) going_to_ = gases_->replace_changes(asked.changes, asked.from);
+  if (gases_) errand_ = Travelling{.to = gases_->replace_changes(asked.changes, asked.from)};
 }
 
 void EngineWork::execute(const command::ExchangeFutures&) {
   halt();
-  if (gases_) going_to_ = gases_->exchange_futures();
+  if (gases_) errand_ = Travelling{.to = gases_->exchange_futures()};
 }
 
 void EngineWork::execute(const command::Loop& asked) {
@@ -165,16 +167,17 @@ void EngineWork::execute(const command::SelectGas& asked) {
 }
 
 void EngineWork::execute(const command::Open& asked) {
-  opening_.emplace(asked, gases_.get(), record_bytes_);
+  errand_.emplace<OpeningGases>(asked, gases_.get(), record_bytes_);
   work_on_opening();
-  if (opening_ && opening_->complete()) finish_opening();
+  const auto* opening = std::get_if<OpeningGases>(&errand_);
+  if (opening && opening->complete()) finish_opening();
 }
 
 void EngineWork::execute(const command::CancelOpen&) {}
 
 // Ends what counts the events of the selected gas, before another one is selected.
 void EngineWork::leave_leader() {
-  if (to_collision_) halt();
+  if (in<SteppingToCollision>()) halt();
   partners_.reset();
   rate_.restart();
 }

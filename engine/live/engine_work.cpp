@@ -20,48 +20,47 @@ EngineWork::EngineWork(double frames_per_second, CommandQueue<Command>& commands
 void EngineWork::run() {
   while (!commands_.closed()) {
     execute_all();
-    if (opening_) {
-      open_on();
-    } else if (goes()) {
-      go_on();
-    } else if (looks_ahead()) {
-      publish();
-    } else if (!moves()) {
+    if (!busy()) {
       commands_.wait();
-    } else if (backwards_) {
-      begin_rewind();
-      const Pace::Goal goal = pace_.next(Clock::now(), -wanted_);
-      if (rewind(-goal.time, goal.due)) commands_.wait_until(goal.due);
-    } else if (plays_) {
-      const Pace::Goal goal = pace_.next(Clock::now(), time());
-      if (play(goal.time, goal.due)) commands_.wait_until(goal.due);
-    } else {
-      step(frame_seconds_);
+    } else if (const auto due = work({})) {
+      commands_.wait_until(*due);
     }
   }
 }
 
 void EngineWork::run_slice(Clock::duration elapsed, Clock::time_point due) {
-  const bool opened = opening_.has_value();
+  const bool opened = opens();
   execute_all();
-  if (opening_) {
-    // A new opening has already had its slice.
-    if (opened) open_on();
-    return;
-  }
-  if (goes()) return go_on();
-  if (looks_ahead()) return publish();
-  if (!moves()) return;
-  if (backwards_) {
-    begin_rewind();
-    pace_.set_frame(elapsed);
-    rewind(-pace_.next(Clock::now(), -wanted_).time, due);
-  } else if (plays_) {
-    pace_.set_frame(elapsed);
-    play(pace_.next(Clock::now(), time()).time, due);
+  // A new opening has already had its slice.
+  if (!busy() || (opens() && !opened)) return;
+  pace_.set_frame(elapsed);
+  work(due);
+}
+
+// Works for a frame, until it is due or until the end of the slice. Returns the real time at which
+// the next frame follows. Absent: at once.
+std::optional<EngineWork::Clock::time_point> EngineWork::work(
+    std::optional<Clock::time_point> slice_end) {
+  const auto now = Clock::now();
+  if (opens()) {
+    open_on();
+  } else if (has_errand()) {
+    go_on();
+  } else if (auto* backwards = std::get_if<PlayingBackwards>(&motion_); gases_ && backwards) {
+    begin_rewind(*backwards);
+    const Pace::Goal goal = pace_.next(now, -backwards->wanted);
+    const Clock::time_point due = slice_end.value_or(goal.due);
+    if (rewind(*backwards, -goal.time, due)) return due;
+  } else if (gases_ && in<Playing>()) {
+    const Pace::Goal goal = pace_.next(now, time());
+    const Clock::time_point due = slice_end.value_or(goal.due);
+    if (play(goal.time, due)) return due;
+  } else if (moves()) {
+    step(slice_end ? std::chrono::duration<double>(*slice_end - now).count() : frame_seconds_);
   } else {
-    step(std::chrono::duration<double>(due - Clock::now()).count());
+    publish();  // looks ahead
   }
+  return {};
 }
 
 void EngineWork::report(const std::string& message) {
@@ -70,9 +69,7 @@ void EngineWork::report(const std::string& message) {
 }
 
 void EngineWork::halt() {
-  plays_ = backwards_ = false;
-  step_to_.reset();
-  to_collision_.reset();
+  motion_ = Halted{};
   partners_.reset();
   pace_.restart();
 }
@@ -82,18 +79,18 @@ void EngineWork::work_on_opening() {
   constexpr std::chrono::milliseconds kSlice{20};
   const auto due = Clock::now() + kSlice;
   const auto pauses = [&] { return Clock::now() >= due || commands_.pending(); };
-  if (!attempt([&] { opening_->advance(pauses); })) opening_.reset();
+  if (!attempt([&] { std::get<OpeningGases>(errand_).advance(pauses); })) errand_ = {};
 }
 
 // A slice of the opening, after which the other commands follow. The first frame of the run has a
 // slice of its own, because its picture takes long.
 void EngineWork::open_on() {
-  if (opening_->complete()) {
+  if (std::get<OpeningGases>(errand_).complete()) {
     attempt([this] { finish_opening(); });
   } else {
     work_on_opening();
   }
-  if (!opening_) {
+  if (!opens()) {
     ++handled_;
     execute_all();
   }
@@ -101,7 +98,7 @@ void EngineWork::open_on() {
 }
 
 void EngineWork::finish_opening() {
-  OpeningGases opening = *std::exchange(opening_, std::nullopt);
+  OpeningGases opening = std::get<OpeningGases>(std::exchange(errand_, {}));
   const command::Open& asked = opening.asked();
   halt();
   std::vector<std::unique_ptr<WatchedRun>> runs = opening.take();
@@ -114,8 +111,7 @@ void EngineWork::finish_opening() {
   played_.change_laws();
   pace_.set_speed(asked.scene.view.speed);
   pace_.set_factors(asked.scene.view.pace);
-  plays_ = asked.plays;
-  until_ = std::numeric_limits<double>::infinity();
+  if (asked.plays) motion_ = Playing{};
   ++runs_;
   loop_.reset();
   stop_.clear();
@@ -125,14 +121,28 @@ void EngineWork::finish_opening() {
 // Begins the way to a time of the run so far.
 void EngineWork::go_to(double time) {
   gases_->go_back(time);
-  going_to_ = time;
+  errand_ = Travelling{.to = time};
 }
 
-// Ends the way to another time, wherever the run is.
-void EngineWork::stay() {
-  searches_ = false;
-  going_to_.reset();
-  partners_there_.reset();
+// Continues the search for the last collision. Returns whether it has ended; then the run goes
+// there.
+bool EngineWork::search(const StopRequest& pause) {
+  if (!gases_->search_back(pause)) return false;
+  const std::optional<PreviousCollision> collision = gases_->previous_collision();
+  go_to(collision ? collision->time : 0.0);
+  if (collision) std::get<Travelling>(errand_).partners = collision->partners;
+  return true;
+}
+
+// Continues the way to another time. Returns whether the run is there.
+bool EngineWork::travel(const StopRequest& pause) {
+  const Travelling& way = std::get<Travelling>(errand_);
+  if (!gases_->prepare(pause)) return false;
+  while (time() < way.to && !gases_->run_until(way.to, kNoLimit, kNoLimit, pause)) {
+    if (pause.made()) return false;
+  }
+  if (way.partners) partners_ = way.partners;
+  return true;
 }
 
 // A slice of the way to another time. Frames follow at its end.
@@ -142,61 +152,52 @@ void EngineWork::go_on() {
   const auto pauses = [&] { return Clock::now() >= due || commands_.pending(); };
   rate_.restart();
   stop_.clear();
+  bool arrived = false;
   const bool possible = attempt([&] {
-    if (searches_) {
-      if (!gases_->search_back(pauses)) return;
-      searches_ = false;
-      const std::optional<PreviousCollision> collision = gases_->previous_collision();
-      if (collision) partners_there_ = collision->partners;
-      go_to(collision ? collision->time : 0.0);
-    }
-    if (!gases_->prepare(pauses)) return;
-    while (time() < *going_to_ && !gases_->run_until(*going_to_, kNoLimit, kNoLimit, pauses)) {
-      if (pauses()) return;
-    }
-    if (partners_there_) partners_ = partners_there_;
-    stay();
+    if (std::holds_alternative<Searching>(errand_) && !search(pauses)) return;
+    arrived = travel(pauses);
   });
-  if (!possible) stay();
-  if (goes()) return;
+  if (possible && !arrived) return;
+  errand_ = {};
   pace_.restart();
   publish();
   execute_all();
 }
 
-void EngineWork::begin_rewind() {
-  if (rewinder_) return;
-  shown_ = wanted_ = time();
-  rewinder_.emplace(*gases_, pace_.speed() * frame_seconds_);
+void EngineWork::begin_rewind(PlayingBackwards& motion) {
+  if (motion.rewinder) return;
+  motion.shown = motion.wanted = time();
+  motion.rewinder.emplace(*gases_, pace_.speed() * frame_seconds_);
 }
 
 // Brings the run to the time of the shown frame.
 void EngineWork::end_rewind() {
-  if (!rewinder_) return;
-  rewinder_.reset();
-  go_to(shown_);
+  auto* backwards = std::get_if<PlayingBackwards>(&motion_);
+  if (!backwards || !backwards->rewinder) return;
+  backwards->rewinder.reset();
+  go_to(backwards->shown);
 }
 
 // Shows the frame at a time, and then makes earlier ones, until the real time `due` or the next
 // command. Returns whether it has time left. If the frame is late, the delay is dropped.
-bool EngineWork::rewind(double time, Clock::time_point due) {
+bool EngineWork::rewind(PlayingBackwards& motion, double time, Clock::time_point due) {
+  Rewinder& rewinder = *motion.rewinder;
   const auto late = [&] { return Clock::now() >= due || commands_.pending(); };
   const auto in_time = [&] { return !late(); };
   std::optional<Frame> frame;
   const bool works = attempt([&] {
-    const bool asked = rewinder_->due(time);
-    while (asked && !(frame = rewinder_->take(time)) && in_time()) rewinder_->work(late);
-    wanted_ = asked && !frame ? shown_ : time;
-    if (frame) shown_ = frame->snapshot.time;
-    if (frame && shown_ > 0.0) publish_rewound(std::move(*frame));
-    while (rewinder_->busy() && in_time()) rewinder_->work(late);
+    const bool asked = rewinder.due(time);
+    while (asked && !(frame = rewinder.take(time)) && in_time()) rewinder.work(late);
+    motion.wanted = asked && !frame ? motion.shown : time;
+    if (frame) motion.shown = frame->snapshot.time;
+    if (frame && motion.shown > 0.0) publish_rewound(std::move(*frame));
+    while (rewinder.busy() && in_time()) rewinder.work(late);
   });
-  if (!works || shown_ == 0.0) {
-    halt();
-    attempt([this] { end_rewind(); });
-    if (!goes()) publish();
-  }
-  return backwards_ && in_time();
+  if (works && motion.shown > 0.0) return in_time();
+  attempt([this] { end_rewind(); });
+  halt();
+  if (!has_errand()) publish();
+  return false;
 }
 
 // Runs up to `time`, but at most until the real time `due` or the next command. Returns whether
@@ -244,31 +245,34 @@ bool EngineWork::run_slices(double time, std::uint64_t collisions, Clock::time_p
 
 // Runs up to `goal`, but at most until about `due`. Returns whether it arrived and still plays.
 bool EngineWork::play(double goal, Clock::time_point due) {
+  const double until = std::get<Playing>(motion_).until;
   const bool repeats = loop_ && time() < (*loop_)[1];
-  const double end = repeats ? std::min(until_, (*loop_)[1]) : until_;
+  const double end = repeats ? std::min(until, (*loop_)[1]) : until;
   const bool arrived = advance_heard(std::min(goal, end), due);
-  if (arrived && time() >= until_) {
+  if (arrived && time() >= until) {
     halt();
   } else if (arrived && repeats && goal >= end) {
     pace_.restart();
     if (!attempt([this] { go_to((*loop_)[0]); })) halt();
   }
-  if (!goes()) publish();
-  return arrived && plays_;
+  if (!has_errand()) publish();
+  return arrived && in<Playing>();
 }
 
 // Runs at full speed for some seconds of real time, before a frame.
 void EngineWork::step(double seconds) {
   const auto due = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                       std::chrono::duration<double>(seconds));
-  if (step_to_) {
-    if (advance(*step_to_, kNoLimit, due)) halt();
+  if (const auto* stepping = std::get_if<Stepping>(&motion_)) {
+    if (advance(stepping->to, kNoLimit, due)) halt();
   } else {
     const double ahead = time() + pace_.speed() * frame_seconds_;
-    while (to_collision_ && time() < ahead && Clock::now() < due && !commands_.pending()) {
+    const std::uint64_t last = std::get<SteppingToCollision>(motion_).number;
+    while (in<SteppingToCollision>() && time() < ahead && Clock::now() < due &&
+           !commands_.pending()) {
       advance(ahead, gases_->counts().collisions() + 1, due);
-      const std::uint64_t collisions = gases_->counts().pair_collisions;
-      if (to_collision_ && collisions >= *to_collision_) halt_at_collision();
+      if (in<SteppingToCollision>() && gases_->counts().pair_collisions >= last)
+        halt_at_collision();
     }
   }
   publish();
@@ -294,11 +298,13 @@ void EngineWork::publish_rewound(Frame frame) {
 void EngineWork::send_frame() {
   Frame& frame = frames_.back();
   frame.opening.reset();
-  if (opening_) frame.opening = opening_->progress();
+  if (const auto* opening = std::get_if<OpeningGases>(&errand_)) {
+    frame.opening = opening->progress();
+  }
   frame.run = runs_;
   frame.handled = handled_;
-  frame.plays = plays_;
-  frame.backwards = backwards_;
+  frame.backwards = in<PlayingBackwards>();
+  frame.plays = in<Playing>() || frame.backwards;
   frame.loop = loop_;
   frame.speed = pace_.speed();
   for (Frame& other : frame.others) {
@@ -306,7 +312,7 @@ void EngineWork::send_frame() {
     other.speed = pace_.speed();
   }
   frame.held = pace_.held();
-  if (plays_ && !backwards_ && gases_) {
+  if (gases_ && in<Playing>()) {
     rate_.count(gases_->counts().collisions());
   } else {
     rate_.halt();

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "engine/live/command.h"
 #include "engine/live/command_queue.h"
@@ -39,6 +40,10 @@ namespace clatter {
 
 /// The work of the engine, on its thread or in slices. It executes commands, runs the gases at
 /// their speed and publishes frames. Errors become messages in frames.
+///
+/// Its state is a motion and an errand. The errand comes first: a scene is opened, the last
+/// collision is searched for, or the run goes to another time. Commands wait meanwhile, and the
+/// motion goes on afterwards. A gas without errand and motion is at rest.
 class EngineWork {
  public:
   using Clock = Pace::Clock;  ///< of real time
@@ -53,11 +58,42 @@ class EngineWork {
   /// Does the work for a frame after the real time `elapsed` since the last one, until about `due`.
   void run_slice(Clock::duration elapsed, Clock::time_point due);
   /// Whether run_slice() has something to do without a command.
-  bool busy() const { return moves() || opening_ || goes() || looks_ahead(); }
+  bool busy() const { return moves() || has_errand() || looks_ahead(); }
 
  private:
-  bool moves() const { return gases_ && (plays_ || step_to_ || to_collision_); }
-  bool goes() const { return searches_ || going_to_; }
+  // Motions.
+  struct Halted {};
+  struct Playing {
+    double until = std::numeric_limits<double>::infinity();  // simulation time
+  };
+  struct PlayingBackwards {
+    std::optional<Rewinder> rewinder;  // absent: the run is at its present time
+    double shown = 0.0;                // simulation time of the last frame of the rewinder
+    double wanted = 0.0;               // simulation time that the pace asked for last
+  };
+  struct Stepping {
+    double to;  // simulation time
+  };
+  struct SteppingToCollision {
+    std::uint64_t number;  // pair collisions at which to halt
+  };
+
+  // Errands.
+  struct Searching {};
+  struct Travelling {
+    double to;                                                  // simulation time
+    std::optional<std::array<std::uint32_t, 2>> partners = {};  // that have just collided there
+  };
+
+  template <class State>
+  bool in() const {
+    return std::holds_alternative<State>(motion_);
+  }
+  bool opens() const { return std::holds_alternative<OpeningGases>(errand_); }
+  bool has_errand() const { return !std::holds_alternative<std::monostate>(errand_); }
+  // The run is not at its present time, or not for long.
+  bool is_away() const { return has_errand() && !opens(); }
+  bool moves() const { return gases_ && !in<Halted>(); }
   // A gas at rest has time to search for the next collision of the picked particle.
   bool looks_ahead() const { return gases_ && !moves() && gases_->looks_ahead(); }
   double time() const { return gases_->time(); }
@@ -98,20 +134,21 @@ class EngineWork {
   void execute(const command::CancelOpen& asked);
   void leave_leader();
 
-  // Scenes that are being opened.
+  std::optional<Clock::time_point> work(std::optional<Clock::time_point> slice_end);
+
+  // Errands.
   void work_on_opening();
   void open_on();
   void finish_opening();
-
-  // The way to another time of the run, and playing backwards.
-  void go_to(double time);
-  void stay();
+  bool search(const StopRequest& pause);
+  bool travel(const StopRequest& pause);
   void go_on();
-  void begin_rewind();
-  void end_rewind();
-  bool rewind(double time, Clock::time_point due);
+  void go_to(double time);
 
-  // Motion forwards.
+  // Motions.
+  void begin_rewind(PlayingBackwards& motion);
+  bool rewind(PlayingBackwards& motion, double time, Clock::time_point due);
+  void end_rewind();
   bool advance(double time, std::uint64_t collisions, Clock::time_point due);
   bool advance_heard(double time, Clock::time_point due);
   bool run_slices(double time, std::uint64_t collisions, Clock::time_point due);
@@ -131,24 +168,14 @@ class EngineWork {
   double frame_seconds_;
   Pace pace_;
   std::unique_ptr<GasesInStep> gases_;
-  std::optional<OpeningGases> opening_;
   std::deque<Command> waiting_;  // commands that were not executed yet
   command::ShowProfile profiled_ = {.what = Profiled::Nothing};
   PlayedStretches played_;
-  bool plays_ = false;
-  bool backwards_ = false;            // plays_ backwards
-  std::optional<Rewinder> rewinder_;  // while it plays backwards
-  double shown_ = 0.0;                // simulation time of the last frame of the rewinder
-  double wanted_ = 0.0;               // simulation time that the pace asked for last
-  double until_ = std::numeric_limits<double>::infinity();  // simulation time of the automatic halt
-  std::optional<std::array<double, 2>> loop_;               // repeated simulation times
-  std::optional<double> step_to_;
-  bool searches_ = false;           // on the way to the last collision
-  std::optional<double> going_to_;  // simulation time that the run is on its way to
-  std::optional<std::array<std::uint32_t, 2>> partners_there_;  // that have just collided there
-  std::optional<std::uint64_t> to_collision_;  // number of pair collisions at which to halt
-  std::optional<std::array<std::uint32_t, 2>> partners_;
-  std::uint64_t slice_ = 256;  // steps per slice, adapted while running
+  std::variant<Halted, Playing, PlayingBackwards, Stepping, SteppingToCollision> motion_;
+  std::variant<std::monostate, OpeningGases, Searching, Travelling> errand_;
+  std::optional<std::array<double, 2>> loop_;             // repeated simulation times
+  std::optional<std::array<std::uint32_t, 2>> partners_;  // of the collision just now
+  std::uint64_t slice_ = 256;                             // steps per slice, adapted while running
   std::uint64_t runs_ = 0;
   std::uint64_t ids_ = 0;  // Frame::id of the last gas
   std::uint64_t handled_ = 0;
