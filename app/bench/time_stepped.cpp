@@ -152,7 +152,7 @@ void TimeStepped::resolve(std::uint32_t first, std::uint32_t second) {
 void TimeStepped::bounce(std::uint32_t first, std::uint32_t second, const Vec2& separation) {
   Vec2& v1 = velocities_[first];
   Vec2& v2 = velocities_[second];
-  const Vec2 impulse = collision_impulse<2>(separation, v1 - v2, restitution_, 1.0);
+  const Vec2 impulse = collision_impulse<2>(separation, v1 - v2, restitution_, {});
   const double gained1 = impulse.dot(v1 + 0.5 * impulse);
   const double gained2 = -impulse.dot(v2 - 0.5 * impulse);
   v1 += impulse;

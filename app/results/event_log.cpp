@@ -82,9 +82,9 @@ void append_record(std::vector<double>& records, const Model<D>& model, double t
   add(records, model.domain().wrapped(first.position));
   add(records, model.domain().wrapped(second.position));
   add(records, first.velocity);
-  add(records, Vec<D>(first.velocity + first.gain.momentum));
+  add(records, first.velocity_after());
   add(records, second.velocity);
-  add(records, Vec<D>(second.velocity + second.gain.momentum));
+  add(records, second.velocity_after());
   add(records, first.gain.momentum);
   if (!spins) return;
   add_spins(records, first);
@@ -101,7 +101,7 @@ void append_record(std::vector<double>& records, const Model<D>& model, double t
   add(records, model.domain().wrapped(change.position));
   add(records, none);
   add(records, change.velocity);
-  add(records, Vec<D>(change.velocity + change.gain.momentum));
+  add(records, change.velocity_after());
   add(records, none);
   add(records, none);
   add(records, change.gain.momentum);

@@ -93,7 +93,7 @@ void GsdTrajectory<D>::add(const TrajectoryFrame<D>& frame) {
       chunk_bytes<double>(frame.state.velocities),
   };
   if (spins_) {
-    const double inertia = moment_of_inertia(model.inertia, model.diameter);
+    const double inertia = model.grain().moment_of_inertia();
     const double about_plane = D == 2 ? 0.0 : inertia;
     // The angular momentum L is the quaternion (0, 2 L) for particles without rotation.
     const auto momentum = [&](const std::array<double, 3>& spin) {

@@ -69,18 +69,20 @@ WallState Boundary<D>::wall(int side, double time) const {
 }
 
 template <int D>
-double Boundary<D>::touching_place(int side, double time) const {
-  return model_.wall_plane(side / 2, side % 2) + inward(side) * wall(side, time).displacement;
+double Boundary<D>::touching_place(int side, double radius, double time) const {
+  return model_.wall_plane(side / 2, side % 2, radius) +
+         inward(side) * wall(side, time).displacement;
 }
 
 // The piston's rest position moves until the end of its stroke, and rests from there on. A flight
 // that began before the stroke has no contact before it, because such a contact would have ended
 // the flight.
 template <int D>
-double Boundary<D>::contact_time(int side, const Flight<D>& flight, double now) const {
+double Boundary<D>::contact_time(int side, const Flight<D>& flight, double radius,
+                                 double now) const {
   const bool piston = side == kRight && piston_;
   const int axis = side / 2;
-  const double plane = model_.wall_plane(axis, side % 2);
+  const double plane = model_.wall_plane(axis, side % 2, radius);
   if (!motions_[side] && !piston) {
     return plane_contact_time<D>(flight, axis, plane, inward(side), model_.gravity);
   }

@@ -55,11 +55,12 @@ class Boundary {
   const std::array<double, 2 * D>& phase_shifts() const { return phase_shifts_; }
   /// Displacement into the box, velocity and acceleration of a wall along its inward normal.
   WallState wall(int side, double time) const;
-  /// Coordinate, along the wall's axis, of a particle that touches the wall. The contact times use
-  /// the same coordinate.
-  double touching_place(int side, double time) const;
-  /// Time, not before `now`, at which a flight touches a wall; kNever without a contact.
-  double contact_time(int side, const Flight<D>& flight, double now) const;
+  /// Coordinate, along the wall's axis, of a particle of some radius that touches the wall. The
+  /// contact times use the same coordinate.
+  double touching_place(int side, double radius, double time) const;
+  /// Time, not before `now`, at which a particle of some radius touches a wall; kNever without a
+  /// contact.
+  double contact_time(int side, const Flight<D>& flight, double radius, double now) const;
   /// Largest displacement of a wall into the box, until the next stroke of the piston.
   double innermost_travel(int side) const { return innermost_[side]; }
 

@@ -11,36 +11,32 @@
 
 namespace clatter {
 
-static ContactLaw contact_law(double restitution, const Roughness& roughness) {
-  return {restitution, roughness.friction_in_force(), roughness.tangential_restitution_in_force()};
-}
-
 template <int D>
-PairOutcome<D> pair_outcome(const Model<D>& model, const Vec<D>& x, const Vec<D>& v,
-                            const Spin<D>& spin, bool elastic) {
-  const ContactLaw law = contact_law(model.restitution, model.roughness);
-  if (!elastic) return {rough_impulse<D>(x, v, spin, law, model.inertia, model.diameter)};
-  return {{collision_impulse<D>(x, v, 1.0, model.diameter)},
+PairOutcome<D> pair_outcome(const ContactLaw& law, const Partners& partners, const Vec<D>& x,
+                            const Vec<D>& v, const Spin<D>& surface, bool elastic) {
+  if (!elastic) return {rough_impulse<D>(x, v, surface, law, partners)};
+  return {{collision_impulse<D>(x, v, 1.0, partners)},
           true,
-          dissipated_energy<D>(x, v, spin, law, model.inertia, model.diameter)};
+          dissipated_energy<D>(x, v, surface, law, partners)};
 }
 
 template <int D>
 static Departure<D> emitted(const Model<D>& model, int side, const WallState& wall,
                             const Arrival<D>& arrival) {
-  const double temperature = model.walls[side]->temperature;
+  const Grain& grain = arrival.grain;
+  const double temperature = model.wall(side, grain.species).temperature;
   Random random(model.seed, Stream::ThermalWall, arrival.particle, arrival.flight);
   const double uniform = random.uniform();
   std::array<double, D - 1> normals;
   for (double& normal : normals) normal = random.normal();
   Departure<D> departure;
-  departure.velocity =
-      emit<D>(side / 2, Boundary<D>::inward(side), temperature, uniform, normals.data());
+  departure.velocity = emit<D>(side / 2, Boundary<D>::inward(side), temperature / grain.mass,
+                               uniform, normals.data());
   departure.velocity[side / 2] += Boundary<D>::inward(side) * wall.velocity;
   if (model.spins) {
     std::array<double, Spin<D>::SizeAtCompileTime> spin_normals;
     for (double& normal : spin_normals) normal = random.normal();
-    departure.spin = emit_spin<D>(temperature, model.inertia, model.diameter, spin_normals.data());
+    departure.spin = emit_spin<D>(temperature, grain, spin_normals.data());
   }
   return departure;
 }
@@ -50,9 +46,8 @@ static Departure<D> emitted(const Model<D>& model, int side, const WallState& wa
 // one time without end. With this speed it stays away for half of t_c, or for half of an inverse
 // angular frequency of a sinusoidal wall if that is shorter.
 template <int D>
-static double least_rebound(const Model<D>& model, int side, const WallState& wall,
-                            double approach) {
-  const Wall& spec = *model.walls[side];
+static double least_rebound(const Model<D>& model, int side, const Wall& spec,
+                            const WallState& wall, double approach) {
   const double rounding = kApproachRounding * (approach + 2.0 * std::fabs(wall.velocity));
   if (spec.restitution > 0.0 && approach > rounding) return 0.0;
   const double pressing = wall.acceleration - Boundary<D>::inward(side) * model.gravity[side / 2];
@@ -66,11 +61,11 @@ static double least_rebound(const Model<D>& model, int side, const WallState& wa
 template <int D>
 Departure<D> wall_outcome(const Model<D>& model, int side, const WallState& wall,
                           const Arrival<D>& arrival, bool elastic) {
-  const Wall& spec = *model.walls[side];
+  const Wall& spec = model.wall(side, arrival.grain.species);
   if (spec.kind == WallKind::Thermal) return emitted<D>(model, side, wall, arrival);
   const int axis = side / 2;
   const double inward = Boundary<D>::inward(side);
-  ContactLaw law = contact_law(spec.restitution, spec.roughness);
+  ContactLaw law = PairLaw{spec.restitution, spec.roughness}.contact();
   if (elastic) law = {.restitution = std::max(law.restitution, 1.0)};
   Departure<D> departure;
   departure.velocity = spec.moves() ? reflect_moving<D>(arrival.velocity, axis, inward,
@@ -79,20 +74,20 @@ Departure<D> wall_outcome(const Model<D>& model, int side, const WallState& wall
                                                  spec.drive_speed, wall.velocity);
   if (elastic) {
     const double approach = std::fabs(inward * arrival.velocity[axis] - wall.velocity);
-    const double least = wall.velocity + least_rebound<D>(model, side, wall, approach);
+    const double least = wall.velocity + least_rebound<D>(model, side, spec, wall, approach);
     departure.velocity[axis] = inward * std::max(inward * departure.velocity[axis], least);
   }
-  const Impulse<D> friction = wall_friction<D>(arrival.velocity, departure.velocity, arrival.spin,
-                                               axis, inward, law, model.inertia, model.diameter);
-  departure.velocity += friction.momentum;
+  const MotionChange<D> friction = wall_friction<D>(arrival.velocity, departure.velocity,
+                                                    arrival.spin, axis, inward, law, arrival.grain);
+  departure.velocity += friction.velocity;
   departure.spin = arrival.spin + friction.spin;
   return departure;
 }
 
-template PairOutcome<2> pair_outcome<2>(const Model<2>&, const Vec<2>&, const Vec<2>&,
-                                        const Spin<2>&, bool);
-template PairOutcome<3> pair_outcome<3>(const Model<3>&, const Vec<3>&, const Vec<3>&,
-                                        const Spin<3>&, bool);
+template PairOutcome<2> pair_outcome<2>(const ContactLaw&, const Partners&, const Vec<2>&,
+                                        const Vec<2>&, const Spin<2>&, bool);
+template PairOutcome<3> pair_outcome<3>(const ContactLaw&, const Partners&, const Vec<3>&,
+                                        const Vec<3>&, const Spin<3>&, bool);
 template Departure<2> wall_outcome<2>(const Model<2>&, int, const WallState&, const Arrival<2>&,
                                       bool);
 template Departure<3> wall_outcome<3>(const Model<3>&, int, const WallState&, const Arrival<3>&,

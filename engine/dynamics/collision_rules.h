@@ -5,6 +5,7 @@
 #include "engine/dynamics/boundary.h"
 #include "engine/laws/model.h"
 #include "engine/physics/collision.h"
+#include "engine/physics/grain.h"
 #include "engine/physics/spin.h"
 
 namespace clatter {
@@ -12,16 +13,16 @@ namespace clatter {
 /// Result of a collision of two particles.
 template <int D>
 struct PairOutcome {
-  Impulse<D> gain;            ///< of the first
+  Exchange<D> gain;
   bool elasticised = false;   ///< whether the TC model made the collision elastic
   double undissipated = 0.0;  ///< energy that the TC model saved from dissipation
 };
 
-/// Outcome for two particles that touch: x = r_1 - r_2, v = v_1 - v_2, spin = omega_1 + omega_2.
-/// With `elastic` nothing dissipates (TC model, theory 5.3).
+/// Outcome for two particles that touch, with the arguments of rough_impulse. With `elastic`
+/// nothing dissipates (TC model, theory 5.3).
 template <int D>
-PairOutcome<D> pair_outcome(const Model<D>& model, const Vec<D>& x, const Vec<D>& v,
-                            const Spin<D>& spin, bool elastic);
+PairOutcome<D> pair_outcome(const ContactLaw& law, const Partners& partners, const Vec<D>& x,
+                            const Vec<D>& v, const Spin<D>& surface, bool elastic);
 
 /// State of a particle just before it hits a wall.
 template <int D>
@@ -30,6 +31,7 @@ struct Arrival {
   Spin<D> spin = Spin<D>::Zero();
   std::uint32_t particle = 0;
   std::uint64_t flight = 0;  ///< number of the flight that ends here, with its era in the high word
+  Grain grain;
 };
 
 /// State of a particle just after it hits a wall.

@@ -8,6 +8,7 @@
 
 #include "engine/dynamics/neighbour.h"
 #include "engine/dynamics/packed_image.h"
+#include "engine/physics/grain.h"
 #include "engine/physics/pair_contact.h"
 
 namespace clatter {
@@ -105,11 +106,25 @@ struct Groups {
   Ints images{};  // the bits of all rows' images
 };
 
+// Distances at contact of a particle and four neighbours, if all particles are alike: a double.
+template <int D>
+[[gnu::always_inline]] inline double distances_of(double diameter, std::uint32_t,
+                                                  const Neighbour*) {
+  return diameter;
+}
+// The same in a mixture, whose grains follow each other by number.
+template <int D>
+[[gnu::always_inline]] inline Doubles distances_of(const Grain* grains, std::uint32_t particle,
+                                                   const Neighbour* neighbours) {
+  const auto radius = [&](int lane) { return grains[particle_of<D>(neighbours[lane])].radius; };
+  return broadcast(grains[particle].radius) + Doubles{radius(0), radius(1), radius(2), radius(3)};
+}
+
 // Calculates the approaches of all candidates to a particle, see first_contacts.
-template <int D, bool kFalling, bool kShifted>
+template <int D, bool kFalling, bool kShifted, class Sizes>
 [[gnu::always_inline]] inline void approach(const double* rows, std::uint32_t particle,
                                             Candidates<D>& candidates, const double* box,
-                                            double diameter, const double* gravity,
+                                            const Sizes& sizes, const double* gravity,
                                             Groups<D>& groups) {
   constexpr int kImage = 2 * D + 1;
   const double* const own = rows + static_cast<std::size_t>(particle) * kRowLength;
@@ -143,9 +158,9 @@ template <int D, bool kFalling, bool kShifted>
         shift[k] = __builtin_convertvector(boxes, Doubles) * box[k];
       }
     }
-    groups.approaches[groups.count++] =
-        approach_of<D, kFalling>(r, v, time, columns, columns + D, columns[2 * D],
-                                 kShifted ? shift : nullptr, diameter, gravity);
+    groups.approaches[groups.count++] = approach_of<D, kFalling>(
+        r, v, time, columns, columns + D, columns[2 * D], kShifted ? shift : nullptr,
+        distances_of<D>(sizes, particle, candidates.neighbours + i), gravity);
   }
 }
 
@@ -172,21 +187,22 @@ template <int D, bool kShifted>
 }  // namespace lanes
 
 /// For each particle, the first pair_contact_time with its candidates. A particle may be its own
-/// candidate, without effect. `rows` holds all particles, `box` the D edge lengths. `gravity` is
-/// read only with kFalling. The result has the same bits with any instruction set.
+/// candidate, without effect. `rows` holds all particles, `box` the D edge lengths. `sizes` is the
+/// diameter of all, a double, or the const Grain* of a mixture. `gravity` is read only with
+/// kFalling. The result has the same bits with any instruction set.
 ///
 /// Without kShifted, no candidate may have a wrap, and all rows must be in the frame of the box.
 /// With kShifted, no row may have a kFarImage. If a row does not fit, `unique` is false and the
 /// other results are invalid.
-template <int D, bool kFalling, bool kShifted, std::size_t kParticles>
+template <int D, bool kFalling, bool kShifted, std::size_t kParticles, class Sizes>
 [[gnu::always_inline]] inline std::array<FirstContact, kParticles> first_contacts(
     const double* rows, const std::array<std::uint32_t, kParticles>& particles,
-    std::array<Candidates<D>, kParticles>& candidates, const double* box, double diameter,
+    std::array<Candidates<D>, kParticles>& candidates, const double* box, const Sizes& sizes,
     const double* gravity) {
   using namespace lanes;
   Groups<D> groups[kParticles];
   for (std::size_t k = 0; k < kParticles; ++k) {
-    approach<D, kFalling, kShifted>(rows, particles[k], candidates[k], box, diameter, gravity,
+    approach<D, kFalling, kShifted>(rows, particles[k], candidates[k], box, sizes, gravity,
                                     groups[k]);
   }
   // A separate loop, so that the roots and quotients of all groups overlap in the pipeline.

@@ -82,8 +82,11 @@ void EventLoop<D>::restart(RunState<D>&& saved) {
   now_ = saved.now;
   gas_ = ParticleStates<D>();  // frees its memory before the next gas takes its own
   drop_plans();
+  grains_.assign(saved.grains.begin(), saved.grains.end());
+  free_memory(saved.grains);
   gas_ = states_of<D>(model_, saved);
   near_ = Neighbourhood<D>(model_, static_cast<double>(gas_.particles.size()));
+  set_alike();
   prediction_.set_laws();
   until_base_moves_ = saved.until_base_moves;
   counts_ = saved.counts;
@@ -105,10 +108,18 @@ void EventLoop<D>::begin_watch(double start_speed, double mean_collision_time,
   }
 }
 
+// What particles are that are alike.
+template <int D>
+void EventLoop<D>::set_alike() {
+  alike_ = model_.grain();
+  alike_partners_ = {alike_, alike_};
+}
+
 template <int D>
 void EventLoop<D>::set_laws(bool keeps_flights, const Vec<D>& gravity, double start_speed) {
   gas_.fit(model_, gas_.particles.size());
   begin_watch(start_speed, watchdog_ ? watchdog_->mean_collision_time() : 0.0, std::nullopt);
+  set_alike();
   prediction_.set_laws();
   if (keeps_flights) return;
   for (std::size_t i = 0; i < gas_.particles.size(); ++i) {
@@ -123,7 +134,7 @@ EventLoop<D>::EventLoop(const Model<D>& model, const Boundary<D>& boundary)
       boundary_(boundary),
       now_(0.0),
       near_(model, 1.0),
-      prediction_(model, boundary, gas_.particles, near_),
+      prediction_(model, boundary, gas_.particles, grains_, near_),
       until_base_moves_(kNoLimit),
       fastest_(kNever) {}
 
@@ -137,8 +148,9 @@ static void reorder(std::vector<T>& list, const std::vector<std::uint32_t>& orde
 }
 
 template <int D>
-void EventLoop<D>::load(const ParticleStates<D>& gas, const Subdomain<D>& subdomain,
-                        TileRecord<D>& record, double start, double end) {
+void EventLoop<D>::load(const ParticleStates<D>& gas, const LargeArray<Grain>& grains,
+                        const Subdomain<D>& subdomain, TileRecord<D>& record, double start,
+                        double end) {
   constexpr std::size_t kAhead = 16;
   const std::size_t count = record.numbers.size();
   now_ = start;
@@ -148,9 +160,11 @@ void EventLoop<D>::load(const ParticleStates<D>& gas, const Subdomain<D>& subdom
   until_base_moves_ = kNoLimit;
   counts_ = {};
   checks_ = {};
-  prediction_.set_laws();
+  set_alike();
   gas_.era = gas.era;
   gas_.particles.resize(count);
+  grains_.resize(grains.empty() ? 0 : count);
+  prediction_.set_laws();
   gas_.fit(model_, count);
   plans_.resize(count);
   near_.reset(subdomain, static_cast<double>(count));
@@ -170,6 +184,7 @@ void EventLoop<D>::load(const ParticleStates<D>& gas, const Subdomain<D>& subdom
   for (std::uint32_t i = 0; i < count; ++i) {
     if (i + kAhead < count) prefetch(gas.particles[record.numbers[i + kAhead]]);
     gas_.copy(i, gas, record.numbers[i]);
+    if (!grains.empty()) grains_[i] = grains[record.numbers[i]];
     gas_.particles.set_image(i, record.images[i]);
     plans_[i].cell = cells[by_cell[i]];
   }
@@ -197,6 +212,7 @@ void EventLoop<D>::save_to(RunState<D>& saved) const {
   saved.now = now_;
   saved.flights.reserve(gas_.particles.size());
   for (const Particle<D>& particle : gas_.particles) saved.flights.push_back(particle.flight);
+  saved.grains.assign(grains_.begin(), grains_.end());
   saved.spins.assign(gas_.spins.begin(), gas_.spins.end());
   saved.last_collisions.assign(gas_.last_collisions.begin(), gas_.last_collisions.end());
   saved.remainders.assign(gas_.remainders.begin(), gas_.remainders.end());
@@ -419,17 +435,19 @@ double EventLoop<D>::deepest_overlap_of(std::size_t number) const {
     const Vec<D> image = gas_.particles.image(j) - gas_.particles.image(i) - wrap;
     const Vec<D> x =
         r - gas_.particles[j].flight.at(now_, model_.gravity) + model_.domain().shift(image);
-    deepest = std::max(deepest, 1.0 - x.norm() / model_.diameter);
+    const double distance = grain(i).radius + grain(j).radius;
+    deepest = std::max(deepest, (distance - x.norm()) / model_.diameter);
   });
-  return std::max(deepest, overlap_with_walls(boundary_, r));
+  return std::max(deepest, overlap_with_walls(boundary_, i, r));
 }
 
 template <int D>
-double EventLoop<D>::overlap_with_walls(const Boundary<D>& boundary, const Vec<D>& position) const {
+double EventLoop<D>::overlap_with_walls(const Boundary<D>& boundary, std::uint32_t number,
+                                        const Vec<D>& position) const {
   double deepest = 0.0;
   for (int side = 0; side < 2 * D; ++side) {
     if (!model_.walls[side]) continue;
-    const double place = boundary.touching_place(side, now_);
+    const double place = boundary.touching_place(side, grain(number).radius, now_);
     const double beyond = Boundary<D>::inward(side) * (place - position[side / 2]);
     deepest = std::max(deepest, beyond / model_.diameter);
   }
@@ -439,9 +457,9 @@ double EventLoop<D>::overlap_with_walls(const Boundary<D>& boundary, const Vec<D
 template <int D>
 double EventLoop<D>::deepest_overlap_with(const Boundary<D>& boundary) const {
   double deepest = 0.0;
-  for (const Particle<D>& particle : gas_.particles) {
-    const Vec<D> place = particle.flight.at(now_, model_.gravity);
-    deepest = std::max(deepest, overlap_with_walls(boundary, place));
+  for (std::uint32_t i = 0; i < gas_.particles.size(); ++i) {
+    const Vec<D> place = gas_.particles[i].flight.at(now_, model_.gravity);
+    deepest = std::max(deepest, overlap_with_walls(boundary, i, place));
   }
   return deepest;
 }

@@ -22,6 +22,7 @@
 #include "engine/dynamics/watchdog.h"
 #include "engine/laws/acts.h"
 #include "engine/laws/model.h"
+#include "engine/physics/grain.h"
 #include "engine/stop_request.h"
 
 namespace clatter {
@@ -59,8 +60,8 @@ class EventLoop {
   /// and plans their events up to the time `end`. Orders them by cells. The run from there adds to
   /// the record. A particle that leaves the subdomain has no more events, and its flight gets a
   /// number that no flight of the gas has.
-  void load(const ParticleStates<D>& gas, const Subdomain<D>& subdomain, TileRecord<D>& record,
-            double start, double end);
+  void load(const ParticleStates<D>& gas, const LargeArray<Grain>& grains,
+            const Subdomain<D>& subdomain, TileRecord<D>& record, double start, double end);
 
   /// Work of place(), compare() and plan() that has been done.
   struct Preparation {
@@ -158,6 +159,12 @@ class EventLoop {
   const ParticleStates<D>& gas() const { return gas_; }
   /// [N] see Simulation::particles.
   const ParticleArray<D>& particles() const { return gas_.particles; }
+  /// What each particle is; empty: all are Model::grain().
+  const LargeArray<Grain>& grains() const { return grains_; }
+  /// What a particle is.
+  const Grain& grain(std::uint32_t number) const {
+    return grains_.empty() ? alike_ : grains_[number];
+  }
   /// [N] see Simulation::spins.
   const LargeArray<Spin<D>>& spins() const { return gas_.spins; }
   /// Events since the start of the run.
@@ -190,7 +197,8 @@ class EventLoop {
   [[gnu::always_inline]] inline void schedule(std::uint32_t particle);
   void put_into_cell(std::size_t number);
   double deepest_overlap_of(std::size_t number) const;
-  double overlap_with_walls(const Boundary<D>& boundary, const Vec<D>& position) const;
+  double overlap_with_walls(const Boundary<D>& boundary, std::uint32_t number,
+                            const Vec<D>& position) const;
   void begin_watch(double start_speed, double mean_collision_time,
                    const std::optional<WatchdogState>& watchdog);
   bool is_current(const Event& event) const;
@@ -198,6 +206,7 @@ class EventLoop {
   template <typename Visit>
   void visit_searches(const Event& event, const Visit& visit) const;
   Spin<D> spin(std::uint32_t number) const;
+  void set_alike();
   ParticleChange<D> change_of(std::uint32_t number, const Vec<D>& position, const Vec<D>& velocity,
                               const Impulse<D>& gain) const;
   void add_spin(std::uint32_t number, const Spin<D>& gain);
@@ -206,6 +215,9 @@ class EventLoop {
   const Boundary<D>& boundary_;
   double now_;  // on the base
   ParticleStates<D> gas_;
+  LargeArray<Grain> grains_;  // [N]; empty: all particles are alike
+  Grain alike_;               // of each particle then
+  Partners alike_partners_;   // of each two particles then
   LargeArray<Plan<D>> plans_;
   Neighbourhood<D> near_;
   Prediction<D> prediction_;

@@ -132,13 +132,8 @@ bool EventLoop<D>::within_contact_time(std::uint32_t number) const {
 template <int D>
 ParticleChange<D> EventLoop<D>::change_of(std::uint32_t number, const Vec<D>& position,
                                           const Vec<D>& velocity, const Impulse<D>& gain) const {
-  return {number,
-          gas_.particles[number].flight,
-          position,
-          velocity,
-          spin(number),
-          gain,
-          moment_of_inertia(model_.inertia, model_.diameter)};
+  return {number,       grain(number), gas_.particles[number].flight, position, velocity,
+          spin(number), gain};
 }
 
 template <int D>
@@ -148,34 +143,45 @@ void EventLoop<D>::collide(std::uint32_t first, std::uint32_t second, const IntV
   const auto [r_b, v_b] = motion_now(second);
   const Vec<D> x = (r_a - r_b) + shift;
   const Vec<D> g = v_a - v_b;
-  const double least = (1.0 - checks_.deepest_overlap) * model_.diameter;
+  const bool mixed = !grains_.empty();
+  const double distance = mixed ? grains_[first].radius + grains_[second].radius : model_.diameter;
+  const double least = distance - checks_.deepest_overlap * model_.diameter;
   if (x.squaredNorm() < least * least) {
-    checks_.deepest_overlap = std::max(checks_.deepest_overlap, 1.0 - x.norm() / model_.diameter);
+    checks_.deepest_overlap =
+        std::max(checks_.deepest_overlap, (distance - x.norm()) / model_.diameter);
   }
   // Grazing particles may recede at contact by rounding. Then no momentum passes between them. The
   // event still counts, so that it is not predicted again from the same states.
   PairOutcome<D> outcome;
-  if (x.dot(g) < 0.0 && gas_.spins.empty() && gas_.last_collisions.empty()) {
-    outcome.gain.momentum = collision_impulse<D>(x, g, model_.restitution, model_.diameter);
+  if (x.dot(g) < 0.0 && gas_.spins.empty() && gas_.last_collisions.empty() && !mixed) {
+    outcome.gain.momentum = collision_impulse<D>(x, g, model_.restitution, alike_partners_);
   } else if (x.dot(g) < 0.0) {
+    const Grain &one = grain(first), &other = grain(second);
+    const Spin<D> surface = one.radius * spin(first) + other.radius * spin(second);
     const bool elastic = within_contact_time(first) || within_contact_time(second);
-    outcome = pair_outcome<D>(model_, x, g, spin(first) + spin(second), elastic);
+    outcome =
+        pair_outcome<D>(model_.pair(one.species, other.species).contact(),
+                        mixed ? Partners(one, other) : alike_partners_, x, g, surface, elastic);
   }
-  const Impulse<D>& gain = outcome.gain;
-  const Impulse<D> loss{-gain.momentum, gain.spin};
+  const Vec<D>& momentum = outcome.gain.momentum;
   if (!observers_.empty()) {
     const bool swap = second < first;
     PairCollision<D> collision{
         now_, {}, x * (swap ? -1.0 : 1.0), outcome.elasticised, outcome.undissipated};
-    collision.particles[swap] = change_of(first, r_a, v_a, gain);
-    collision.particles[!swap] = change_of(second, r_b, v_b, loss);
+    collision.particles[swap] = change_of(first, r_a, v_a, outcome.gain.of(0));
+    collision.particles[!swap] = change_of(second, r_b, v_b, outcome.gain.of(1));
     for (Observer<D>* observer : observers_) observer->on_collision(collision);
   }
   --until_base_moves_;
-  renew_flight(first, r_a, v_a + gain.momentum);
-  renew_flight(second, r_b, v_b - gain.momentum);
-  add_spin(first, gain.spin);
-  add_spin(second, gain.spin);
+  if (mixed) {
+    renew_flight(first, r_a, v_a + momentum / grains_[first].mass);
+    renew_flight(second, r_b, v_b - momentum / grains_[second].mass);
+  } else {
+    renew_flight(first, r_a, v_a + momentum);
+    renew_flight(second, r_b, v_b - momentum);
+  }
+  add_spin(first, outcome.gain.spins[0]);
+  add_spin(second, outcome.gain.spins[1]);
   ++counts_.pair_collisions;
   counts_.elasticised += outcome.elasticised;
   if (!gas_.last_collisions.empty())
@@ -186,7 +192,7 @@ template <int D>
 void EventLoop<D>::hit_wall(std::uint32_t number, int side) {
   const int axis = side / 2;
   auto [r, v] = motion_now(number);
-  const double place = boundary_.touching_place(side, now_);
+  const double place = boundary_.touching_place(side, grain(number).radius, now_);
   const double beyond = Boundary<D>::inward(side) * (place - r[axis]);
   checks_.deepest_overlap = std::max(checks_.deepest_overlap, beyond / model_.diameter);
   // At a fixed wall the position is set to the exact touching coordinate. Otherwise a grain at rest
@@ -196,15 +202,15 @@ void EventLoop<D>::hit_wall(std::uint32_t number, int side) {
     if (!gas_.remainders.empty()) gas_.remainders[number][axis] = 0.0;
   }
   const bool elastic = within_contact_time(number) && model_.walls[side]->kind != WallKind::Thermal;
-  const Departure<D> departure =
-      wall_outcome<D>(model_, side, boundary_.wall(side, now_),
-                      {v, spin(number), record_ ? record_->numbers[number] : number,
-                       std::uint64_t{gas_.era} << 32 | gas_.particles[number].flight.number},
-                      elastic);
+  const Departure<D> departure = wall_outcome<D>(
+      model_, side, boundary_.wall(side, now_),
+      {v, spin(number), record_ ? record_->numbers[number] : number,
+       std::uint64_t{gas_.era} << 32 | gas_.particles[number].flight.number, grain(number)},
+      elastic);
   if (!observers_.empty()) {
     const Spin<D> spin_gain = departure.spin - spin(number);
-    const WallCollision<D> collision{now_, side,
-                                     change_of(number, r, v, {departure.velocity - v, spin_gain})};
+    const Vec<D> gain = grain(number).mass * (departure.velocity - v);
+    const WallCollision<D> collision{now_, side, change_of(number, r, v, {gain, spin_gain})};
     for (Observer<D>* observer : observers_) observer->on_wall(collision);
   }
   --until_base_moves_;
@@ -215,26 +221,31 @@ void EventLoop<D>::hit_wall(std::uint32_t number, int side) {
   if (!gas_.last_collisions.empty()) gas_.last_collisions[number] = now_;
 }
 
+// The total momentum stays: every particle loses the same velocity.
 template <int D>
 void EventLoop<D>::kick() {
   const auto count = static_cast<std::uint32_t>(gas_.particles.size());
-  std::vector<Impulse<D>> gains(count);
+  double mass = 0.0;
+  for (std::uint32_t i = 0; i < count; ++i) mass += grain(i).mass;
+  std::vector<Vec<D>> velocities(count);
+  std::vector<Spin<D>> spins(count, Spin<D>::Zero());
   Vec<D> mean = Vec<D>::Zero();
   for (std::uint32_t i = 0; i < count; ++i) {
     Random random(model_.seed, Stream::Kick, i, counts_.kicks);
-    for (double& p : gains[i].momentum) p = model_.bulk_drive->kick_speed * random.normal();
+    const double speed = model_.bulk_drive->kick_speed_of(grain(i).mass);
+    for (double& v : velocities[i]) v = speed * random.normal();
     if (model_.spins) {
-      for (double& w : gains[i].spin) w = model_.bulk_drive->kick_spin * random.normal();
+      for (double& w : spins[i]) w = model_.bulk_drive->kick_spin * random.normal();
     }
-    mean += gains[i].momentum / count;
+    mean += velocities[i] / (mass / grain(i).mass);
   }
   for (std::uint32_t i = 0; i < count; ++i) {
-    gains[i].momentum -= mean;
+    const Vec<D> gain = velocities[i] - mean;
     const auto [r, v] = motion_now(i);
-    const Kick<D> kick{now_, change_of(i, r, v, gains[i])};
+    const Kick<D> kick{now_, change_of(i, r, v, {grain(i).mass * gain, spins[i]})};
     for (Observer<D>* observer : observers_) observer->on_kick(kick);
-    renew_flight(i, r, v + gains[i].momentum);
-    add_spin(i, gains[i].spin);
+    renew_flight(i, r, v + gain);
+    add_spin(i, spins[i]);
   }
   ++counts_.kicks;
 }
@@ -251,6 +262,7 @@ template <int D>
 std::vector<NewVelocity<D>> EventLoop<D>::velocities_after(const Nudge& nudge) const {
   std::vector<NewVelocity<D>> velocities;
   Vec<D> mean = Vec<D>::Zero();
+  double mass = 0.0;
   for (std::uint32_t i = 0; i < gas_.particles.size(); ++i) {
     const Flight<D>& flight = gas_.particles[i].flight;
     const bool chosen = nudge.particle
@@ -258,9 +270,10 @@ std::vector<NewVelocity<D>> EventLoop<D>::velocities_after(const Nudge& nudge) c
                             : is_in_region<D>(model_, nudge, flight.at(now_, model_.gravity));
     if (!chosen) continue;
     velocities.push_back({i, flight.velocity_at(now_, model_.gravity)});
-    mean += velocities.back().velocity;
+    mean += grain(i).mass * velocities.back().velocity;
+    mass += grain(i).mass;
   }
-  mean /= static_cast<double>(std::max<std::size_t>(1, velocities.size()));
+  if (mass > 0.0) mean /= mass;
   for (auto& [particle, velocity] : velocities) {
     if (nudge.scale) velocity = mean + *nudge.scale * (velocity - mean);
     if (nudge.add) velocity += Vec<D>(*nudge.add);
@@ -277,7 +290,8 @@ void EventLoop<D>::nudge(const std::vector<NewVelocity<D>>& velocities,
                          std::uint64_t EventCounts::*count) {
   for (const NewVelocity<D>& next : velocities) {
     const auto [r, v] = motion_now(next.particle);
-    const Kick<D> kick{now_, change_of(next.particle, r, v, {next.velocity - v, Spin<D>::Zero()}),
+    const Vec<D> gain = grain(next.particle).mass * (next.velocity - v);
+    const Kick<D> kick{now_, change_of(next.particle, r, v, {gain, Spin<D>::Zero()}),
                        KickCause::Nudge};
     for (Observer<D>* observer : observers_) observer->on_kick(kick);
     renew_flight(next.particle, r, next.velocity);

@@ -19,9 +19,11 @@ namespace clatter {
 static constexpr double kGrowth = 1.5;
 
 template <int D>
-Foresight<D>::Foresight(const Model<D>& model, const Boundary<D>& boundary, std::size_t particles,
-                        int threads, const TileSizes& sizes)
+Foresight<D>::Foresight(const Model<D>& model, const Boundary<D>& boundary,
+                        const LargeArray<Grain>& grains, std::size_t particles, int threads,
+                        const TileSizes& sizes)
     : model_(model),
+      grains_(grains),
       sizes_(sizes),
       halo_(sizes.halo * model.diameter),
       block_of_(particles),
@@ -248,7 +250,7 @@ void Foresight<D>::run(const ParticleStates<D>& gas, Limits& limits, Tile& tile,
   record.keeps_events = window_->keep_events;
   record.pair_collisions = record.wall_collisions = 0;
   EventLoop<D>& loop = bench.loop;
-  loop.load(gas, subdomain, record, end_, end);
+  loop.load(gas, grains_, subdomain, record, end_, end);
   if (!finish(loop, limits, tile)) return;
   tile.pair_collisions = record.pair_collisions;
   tile.wall_collisions = record.wall_collisions;

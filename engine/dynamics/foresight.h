@@ -51,10 +51,10 @@ class Foresight {
     Failed,  ///< without a certificate, or after far more events than expected
   };
 
-  /// Foresight for a number of particles. `model` and `boundary` must outlive it. It has one tile
-  /// if the box is too small for several.
-  Foresight(const Model<D>& model, const Boundary<D>& boundary, std::size_t particles, int threads,
-            const TileSizes& sizes);
+  /// Foresight for a number of particles. `model`, `boundary` and `grains`, see EventLoop::grains,
+  /// must outlive it. It has one tile if the box is too small for several.
+  Foresight(const Model<D>& model, const Boundary<D>& boundary, const LargeArray<Grain>& grains,
+            std::size_t particles, int threads, const TileSizes& sizes);
   Foresight(const Foresight&) = delete;
   Foresight& operator=(const Foresight&) = delete;
 
@@ -153,6 +153,7 @@ class Foresight {
   void note_window();
 
   const Model<D>& model_;
+  const LargeArray<Grain>& grains_;
   TileSizes sizes_;
   double halo_;
   double edge_;  // of a tile

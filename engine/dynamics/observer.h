@@ -6,27 +6,30 @@
 #include "engine/laws/model.h"
 #include "engine/physics/collision.h"
 #include "engine/physics/flight.h"
+#include "engine/physics/grain.h"
 #include "engine/physics/spin.h"
 #include "engine/vec.h"
 
 namespace clatter {
 
-/// State of one particle of mass 1 before an event, and its gain in the event.
+/// State of one particle before an event, and its gain in the event.
 template <int D>
 struct ParticleChange {
   std::uint32_t particle = 0;
+  Grain grain;                       ///< what the particle is
   Flight<D> before;                  ///< flight that ends here
   Vec<D> position = Vec<D>::Zero();  ///< centre, in the flight's frame
   Vec<D> velocity = Vec<D>::Zero();  ///< just before
   Spin<D> spin = Spin<D>::Zero();    ///< just before; 0 without spins
   Impulse<D> gain;                   ///< of momentum and of spin
-  double moment_of_inertia = 0.0;    ///< about the centre, mass times length^2
 
+  /// Velocity just after.
+  Vec<D> velocity_after() const { return velocity + gain.momentum / grain.mass; }
   /// Gain in kinetic energy, of motion and of spin, without the rounding of a difference of two
   /// squares.
   double energy() const {
-    return 0.5 * gain.momentum.dot(gain.momentum + 2.0 * velocity) +
-           0.5 * moment_of_inertia * gain.spin.dot(gain.spin + 2.0 * spin);
+    return 0.5 * gain.momentum.dot(gain.momentum / grain.mass + 2.0 * velocity) +
+           0.5 * grain.moment_of_inertia() * gain.spin.dot(gain.spin + 2.0 * spin);
   }
 };
 

@@ -25,10 +25,12 @@ static_assert(are_rows<2>() && are_rows<3>());
 
 template <int D>
 Prediction<D>::Prediction(const Model<D>& model, const Boundary<D>& boundary,
-                          const ParticleArray<D>& particles, const Neighbourhood<D>& near)
+                          const ParticleArray<D>& particles, const LargeArray<Grain>& grains,
+                          const Neighbourhood<D>& near)
     : model_(model),
       boundary_(boundary),
       particles_(particles),
+      grains_(grains),
       near_(near),
       walled_(
           std::any_of(model.walls.begin(), model.walls.end(), [](const auto& w) { return w; })) {
@@ -37,7 +39,13 @@ Prediction<D>::Prediction(const Model<D>& model, const Boundary<D>& boundary,
 
 template <int D>
 void Prediction<D>::set_laws() {
-  planners_ = model_.has_gravity() ? widest_planners<true>() : widest_planners<false>();
+  if (grains_.empty()) {
+    planners_ =
+        model_.has_gravity() ? widest_planners<true, false>() : widest_planners<false, false>();
+  } else {
+    planners_ =
+        model_.has_gravity() ? widest_planners<true, true>() : widest_planners<false, true>();
+  }
 }
 
 // Order of two periodic images through which one pair touches at the same time. The order is the
@@ -85,7 +93,7 @@ void Prediction<D>::offer_particle(std::uint32_t particle, const Candidates<D>& 
   if (time == kTouching) {
     const Vec<D> shift = model_.domain().shift(image);
     time = contact_time<D>(particles_[particle].flight, particles_[partner].flight, shift,
-                           model_.diameter, model_.gravity);
+                           radius_of(particle) + radius_of(partner), model_.gravity);
   }
   offer(time, particle, partner, image.template cast<int>(), plan);
 }
@@ -117,12 +125,19 @@ template <int D>
 }
 
 template <int D>
-template <bool kFalling, bool kShifted, std::size_t kParticles>
+template <bool kFalling, bool kMixed, bool kShifted, std::size_t kParticles>
 std::array<FirstContact, kParticles> Prediction<D>::first_of(
     const std::array<std::uint32_t, kParticles>& particles,
     std::array<Candidates<D>, kParticles>& near) const {
+  const auto sizes = [this] {
+    if constexpr (kMixed) {
+      return grains_.data();
+    } else {
+      return model_.diameter;
+    }
+  }();
   return first_contacts<D, kFalling, kShifted>(reinterpret_cast<const double*>(particles_.data()),
-                                               particles, near, model_.box.data(), model_.diameter,
+                                               particles, near, model_.box.data(), sizes,
                                                model_.gravity.data());
 }
 
@@ -130,7 +145,7 @@ std::array<FirstContact, kParticles> Prediction<D>::first_of(
 // unique first contact. No particle may have crossed a periodic border in its flight. Returns false
 // for other lists; the plans are then invalid.
 template <int D>
-template <bool kFalling, std::size_t kParticles>
+template <bool kFalling, bool kMixed, std::size_t kParticles>
 bool Prediction<D>::look_at_plain_lists(const Requests<kParticles>& requests) const {
   std::array<std::uint32_t, kParticles> particles;
   std::array<Candidates<D>, kParticles> near;
@@ -140,7 +155,7 @@ bool Prediction<D>::look_at_plain_lists(const Requests<kParticles>& requests) co
     particles[k] = requests[k].particle;
     take_first(list, near[k]);
   }
-  const auto first = first_of<kFalling, false>(particles, near);
+  const auto first = first_of<kFalling, kMixed, false>(particles, near);
   bool unique = true;
   for (std::size_t k = 0; k < kParticles; ++k) {
     Plan<D>& plan = *requests[k].plan;
@@ -157,7 +172,7 @@ bool Prediction<D>::look_at_plain_lists(const Requests<kParticles>& requests) co
 
 // Any lists. The first lists of all particles are searched together, then their continuations.
 template <int D>
-template <bool kFalling, std::size_t kParticles>
+template <bool kFalling, bool kMixed, std::size_t kParticles>
 void Prediction<D>::look_at_lists(const Requests<kParticles>& requests) const {
   std::array<std::uint32_t, kParticles> particles;
   std::array<Candidates<D>, kParticles> near;
@@ -165,7 +180,7 @@ void Prediction<D>::look_at_lists(const Requests<kParticles>& requests) const {
     particles[k] = requests[k].particle;
     take_first(near_.near(particles[k], requests[k].plan->cell), near[k]);
   }
-  const auto first = first_of<kFalling, true>(particles, near);
+  const auto first = first_of<kFalling, kMixed, true>(particles, near);
   for (std::size_t k = 0; k < kParticles; ++k) {
     Plan<D>& plan = *requests[k].plan;
     plan.time = kNever;
@@ -175,7 +190,7 @@ void Prediction<D>::look_at_lists(const Requests<kParticles>& requests) const {
       list = near_.next(list);
       std::array<Candidates<D>, 1> more;
       take<kContinuedCapacity>(list, more[0]);
-      const FirstContact of_more = first_of<kFalling, true, 1>({particles[k]}, more)[0];
+      const FirstContact of_more = first_of<kFalling, kMixed, true, 1>({particles[k]}, more)[0];
       offer_first(particles[k], more[0], of_more, plan);
     }
   }
@@ -201,8 +216,8 @@ void Prediction<D>::look_at_walls(std::uint32_t particle, double now, Plan<D>& p
     for (const int side : {2 * axis, 2 * axis + 1}) {
       const double reach = 0.51 * model_.diameter + boundary_.innermost_travel(side);
       if (near_.distance_from_end(particle, plan.cell, axis, side % 2) > reach) continue;
-      offer(boundary_.contact_time(side, particles_[particle].flight, now), particle,
-            kWall + static_cast<std::uint32_t>(side), IntVec<D>::Zero(), plan);
+      offer(boundary_.contact_time(side, particles_[particle].flight, radius_of(particle), now),
+            particle, kWall + static_cast<std::uint32_t>(side), IntVec<D>::Zero(), plan);
     }
   }
 }
@@ -216,15 +231,15 @@ void Prediction<D>::offer_exit(const Exit& exit, Plan<D>& plan) const {
 }
 
 template <int D>
-template <bool kFalling, bool kPlain, std::size_t kParticles>
+template <bool kFalling, bool kMixed, bool kPlain, std::size_t kParticles>
 void Prediction<D>::make_plans(const Requests<kParticles>& requests, double now) const {
   if constexpr (kPlain) {
-    if (!look_at_plain_lists<kFalling>(requests)) [[unlikely]] {
+    if (!look_at_plain_lists<kFalling, kMixed>(requests)) [[unlikely]] {
       planners_.template any<kParticles>()(*this, requests, now);
       return;
     }
   } else {
-    look_at_lists<kFalling>(requests);
+    look_at_lists<kFalling, kMixed>(requests);
   }
   for (const auto& [particle, plan] : requests) {
     for (const Exit& exit :
@@ -237,32 +252,32 @@ void Prediction<D>::make_plans(const Requests<kParticles>& requests, double now)
 }
 
 template <int D>
-template <bool kFalling, bool kPlain, std::size_t kParticles>
+template <bool kFalling, bool kMixed, bool kPlain, std::size_t kParticles>
 void Prediction<D>::plan_baseline(const Prediction& prediction,
                                   const Requests<kParticles>& requests, double now) {
-  prediction.make_plans<kFalling, kPlain>(requests, now);
+  prediction.make_plans<kFalling, kMixed, kPlain>(requests, now);
 }
 
 #if defined(__x86_64__)
 template <int D>
-template <bool kFalling, bool kPlain, std::size_t kParticles>
+template <bool kFalling, bool kMixed, bool kPlain, std::size_t kParticles>
 void Prediction<D>::plan_avx2(const Prediction& prediction, const Requests<kParticles>& requests,
                               double now) {
-  prediction.make_plans<kFalling, kPlain>(requests, now);
+  prediction.make_plans<kFalling, kMixed, kPlain>(requests, now);
 }
 #endif
 
 template <int D>
-template <bool kFalling>
+template <bool kFalling, bool kMixed>
 typename Prediction<D>::Planners Prediction<D>::widest_planners() {
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2")) {
-    return {plan_avx2<kFalling, true, 1>, plan_avx2<kFalling, true, 2>,
-            plan_avx2<kFalling, false, 1>, plan_avx2<kFalling, false, 2>};
+    return {plan_avx2<kFalling, kMixed, true, 1>, plan_avx2<kFalling, kMixed, true, 2>,
+            plan_avx2<kFalling, kMixed, false, 1>, plan_avx2<kFalling, kMixed, false, 2>};
   }
 #endif
-  return {plan_baseline<kFalling, true, 1>, plan_baseline<kFalling, true, 2>,
-          plan_baseline<kFalling, false, 1>, plan_baseline<kFalling, false, 2>};
+  return {plan_baseline<kFalling, kMixed, true, 1>, plan_baseline<kFalling, kMixed, true, 2>,
+          plan_baseline<kFalling, kMixed, false, 1>, plan_baseline<kFalling, kMixed, false, 2>};
 }
 
 template class Prediction<2>;

@@ -5,6 +5,7 @@
 
 #include "engine/dynamics/boundary.h"
 #include "engine/dynamics/event.h"
+#include "engine/dynamics/large_array.h"
 #include "engine/dynamics/neighbourhood.h"
 #include "engine/dynamics/particle.h"
 #include "engine/laws/model.h"
@@ -39,15 +40,15 @@ class Prediction {
   };
 
   /// Keeps references to the model, walls, particles and near particles of a simulation, which must
-  /// outlive this object.
+  /// outlive this object. `grains` is empty if all particles are alike.
   Prediction(const Model<D>& model, const Boundary<D>& boundary, const ParticleArray<D>& particles,
-             const Neighbourhood<D>& near);
+             const LargeArray<Grain>& grains, const Neighbourhood<D>& near);
 
   /// Chooses between simultaneous contacts by these original numbers of the particles, which must
   /// outlive this object. Null: by the particles' own numbers.
   void order_by(const std::uint32_t* numbers) { numbers_ = numbers; }
 
-  /// Takes the changed laws of the model.
+  /// Takes the changed laws of the model, or other grains.
   void set_laws();
 
   /// Plans the first contact with a particle or wall near the particle's cell, or the exit from the
@@ -79,35 +80,39 @@ class Prediction {
       }
     }
   };
-  template <bool kFalling>
+  // A planner for gravity or for none, for a mixture or for particles that are alike.
+  template <bool kFalling, bool kMixed>
   static Planners widest_planners();
   // Attributes of templates take effect only at their declaration. A compiler option instead would
   // change Eigen's layouts.
-  template <bool kFalling, bool kPlain, std::size_t kParticles>
+  template <bool kFalling, bool kMixed, bool kPlain, std::size_t kParticles>
   static void plan_baseline(const Prediction&, const Requests<kParticles>&, double now);
 #if defined(__x86_64__)
-  template <bool kFalling, bool kPlain, std::size_t kParticles>
+  template <bool kFalling, bool kMixed, bool kPlain, std::size_t kParticles>
   [[gnu::target("avx2")]] static void plan_avx2(const Prediction&, const Requests<kParticles>&,
                                                 double now);
 #endif
 
-  template <bool kFalling, bool kPlain, std::size_t kParticles>
+  template <bool kFalling, bool kMixed, bool kPlain, std::size_t kParticles>
   [[gnu::always_inline]] inline void make_plans(const Requests<kParticles>& requests,
                                                 double now) const;
-  template <bool kFalling, std::size_t kParticles>
+  template <bool kFalling, bool kMixed, std::size_t kParticles>
   [[gnu::always_inline]] inline bool look_at_plain_lists(
       const Requests<kParticles>& requests) const;
-  template <bool kFalling, std::size_t kParticles>
+  template <bool kFalling, bool kMixed, std::size_t kParticles>
   [[gnu::always_inline]] inline void look_at_lists(const Requests<kParticles>& requests) const;
   void offer_first(std::uint32_t particle, const Candidates<D>& near, const FirstContact& first,
                    Plan<D>& plan) const;
   [[gnu::always_inline]] inline void offer_exit(const Exit& exit, Plan<D>& plan) const;
   [[gnu::always_inline]] inline Vec<D> image_of(std::uint32_t particle, const Candidates<D>& near,
                                                 int i) const;
-  template <bool kFalling, bool kShifted, std::size_t kParticles>
+  template <bool kFalling, bool kMixed, bool kShifted, std::size_t kParticles>
   [[gnu::always_inline]] inline std::array<FirstContact, kParticles> first_of(
       const std::array<std::uint32_t, kParticles>& particles,
       std::array<Candidates<D>, kParticles>& near) const;
+  double radius_of(std::uint32_t particle) const {
+    return grains_.empty() ? 0.5 * model_.diameter : grains_[particle].radius;
+  }
   void weigh_each(std::uint32_t particle, const Candidates<D>& near, Plan<D>& plan) const;
   void offer_particle(std::uint32_t particle, const Candidates<D>& near, int i, double time,
                       Plan<D>& plan) const;
@@ -118,6 +123,7 @@ class Prediction {
   const Model<D>& model_;
   const Boundary<D>& boundary_;
   const ParticleArray<D>& particles_;
+  const LargeArray<Grain>& grains_;
   const Neighbourhood<D>& near_;
   const std::uint32_t* numbers_ = nullptr;
   bool walled_;  // whether there are walls

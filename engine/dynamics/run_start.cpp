@@ -26,6 +26,7 @@ RunState<D> first_state(const Model<D>& model, State<D> state, double start_time
     saved.flights.push_back({state.positions[i], state.velocities[i], 0.0, 0});
     saved.start_speed = std::max(saved.start_speed, state.velocities[i].norm());
   }
+  saved.grains = std::move(state.grains);
   saved.spins = std::move(state.spins);
   state = {};  // frees the memory before the simulation allocates its own
   return saved;

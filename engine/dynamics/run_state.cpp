@@ -19,6 +19,11 @@ static bool is_motion(const WallMotion& motion) {
          std::isfinite(motion.stroke * motion.frequency + motion.phase);
 }
 
+static bool is_grain(const Grain& grain) {
+  const double least = std::min({grain.radius, grain.mass, grain.inertia});
+  return least > 0.0 && std::isfinite(grain.radius + grain.mass + grain.inertia);
+}
+
 static bool is_stroke(const PistonStroke& stroke) {
   return stroke.from >= 0.0 && stroke.to >= 0.0 && stroke.end > stroke.start &&
          std::isfinite(stroke.from + stroke.to + stroke.start + stroke.end + stroke.velocity());
@@ -41,13 +46,14 @@ bool makes_sense(const RunState<D>& state) {
          state.start_speed >= 0.0 && state.kick_interval >= 0.0 &&
          state.until_base_moves <= kLongestBase &&
          (state.kick_interval == 0.0 || kicked + state.kick_interval >= time * (1.0 - kLate)) &&
-         fits(state.spins) && fits(state.last_collisions) && fits(state.remainders) &&
-         std::ranges::all_of(state.wall_motions, is_motion) &&
+         fits(state.grains) && fits(state.spins) && fits(state.last_collisions) &&
+         fits(state.remainders) && std::ranges::all_of(state.wall_motions, is_motion) &&
          (!state.piston || is_stroke(*state.piston)) &&
          std::ranges::all_of(state.phase_shifts, [](double s) { return std::isfinite(s); }) &&
          std::ranges::all_of(
              state.flights,
              [&](const Flight<D>& f) { return is_flight<D>(f, state.now, state.gravity); }) &&
+         std::ranges::all_of(state.grains, is_grain) &&
          std::ranges::all_of(state.spins, is_finite) &&
          std::ranges::all_of(state.remainders, is_finite) &&
          std::ranges::all_of(state.last_collisions, [&](double t) { return t <= state.now; });

@@ -10,6 +10,7 @@
 #include "engine/dynamics/watchdog.h"
 #include "engine/laws/acts.h"
 #include "engine/physics/flight.h"
+#include "engine/physics/grain.h"
 #include "engine/physics/spin.h"
 #include "engine/physics/wall_motion.h"
 
@@ -64,6 +65,7 @@ struct RunState {
   LongTime base;                        ///< simulation time of the moving base
   double now = 0.0;                     ///< on the base
   std::vector<Flight<D>> flights;       ///< [N] in original order
+  std::vector<Grain> grains;            ///< [N], or empty: all are Model::grain()
   std::vector<Spin<D>> spins;           ///< [N], or empty: all 0
   std::vector<double> last_collisions;  ///< [N] times on the base, or empty: none yet
   std::vector<Vec<D>> remainders;       ///< [N] exact positions - flights.r, or empty: all 0
@@ -136,15 +138,22 @@ void visit(Archive& io, Flight<D>& flight) {
   io(r, v, time, number);
 }
 
+/// Visits all members, in order.
+template <class Archive>
+void visit(Archive& io, Grain& grain) {
+  auto& [radius, mass, inertia, species] = grain;
+  io(radius, mass, inertia, species);
+}
+
 /// Visits all members, in order, and requires that the state makes sense.
 template <class Archive, int D>
 void visit(Archive& io, RunState<D>& state) {
-  auto& [gravity, wall_motions, phase_shifts, piston, base, now, flights, spins, last_collisions,
-         remainders, until_base_moves, mean_collision_time, watchdog, start_speed, kick_interval,
-         kick_origin, kicks_since_origin, era, counts, checks] = state;
-  io(gravity, wall_motions, phase_shifts, piston, base, now, flights, spins, last_collisions,
-     remainders, until_base_moves, mean_collision_time, watchdog, start_speed, kick_interval,
-     kick_origin, kicks_since_origin, era, counts, checks);
+  auto& [gravity, wall_motions, phase_shifts, piston, base, now, flights, grains, spins,
+         last_collisions, remainders, until_base_moves, mean_collision_time, watchdog, start_speed,
+         kick_interval, kick_origin, kicks_since_origin, era, counts, checks] = state;
+  io(gravity, wall_motions, phase_shifts, piston, base, now, flights, grains, spins,
+     last_collisions, remainders, until_base_moves, mean_collision_time, watchdog, start_speed,
+     kick_interval, kick_origin, kicks_since_origin, era, counts, checks);
   io.require(makes_sense(state));
 }
 

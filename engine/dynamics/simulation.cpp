@@ -91,9 +91,11 @@ void Simulation<D>::set_laws(const Model<D>& model) {
 }
 
 template <int D>
-void Simulation<D>::add_particles(const std::vector<Vec<D>>& positions) {
+void Simulation<D>::add_particles(const std::vector<Vec<D>>& positions,
+                                  const std::vector<Grain>& grains) {
   RunState<D> next = save();
   next.watchdog.reset();
+  next.grains.insert(next.grains.end(), grains.begin(), grains.end());
   for (const Vec<D>& position : positions) {
     next.flights.push_back({position, Vec<D>::Zero(), next.now, 0});
   }
@@ -180,8 +182,8 @@ void Simulation<D>::use_threads(int threads, const TileSizes& sizes) {
 // The way is chosen at the next event.
 template <int D>
 void Simulation<D>::make_tiles() {
-  foresight_ =
-      std::make_unique<Foresight<D>>(model_, boundary_, particles().size(), threads_, tile_sizes_);
+  foresight_ = std::make_unique<Foresight<D>>(model_, boundary_, loop_.grains(), particles().size(),
+                                              threads_, tile_sizes_);
   if (foresight_->tiles() < 2) foresight_.reset();
   until_tried_ = 0;
   way_is_open_ = foresight_ || in_tiles_;
@@ -482,6 +484,7 @@ State<D> Simulation<D>::state() const {
     state.velocities.push_back(particle.flight.velocity_at(base_time(), model_.gravity));
   }
   state.spins.assign(spins().begin(), spins().end());
+  state.grains.assign(loop_.grains().begin(), loop_.grains().end());
   return state;
 }
 
@@ -493,8 +496,9 @@ std::uint64_t Simulation<D>::state_hash() const {
 template <int D>
 double Simulation<D>::kinetic_energy() const {
   double twice = 0.0;
-  for (const Particle<D>& particle : particles()) {
-    twice += particle.flight.velocity_at(base_time(), model_.gravity).squaredNorm();
+  for (std::uint32_t i = 0; i < particles().size(); ++i) {
+    const Flight<D>& flight = particles()[i].flight;
+    twice += grain(i).mass * flight.velocity_at(base_time(), model_.gravity).squaredNorm();
   }
   return 0.5 * twice;
 }
@@ -507,9 +511,11 @@ double Simulation<D>::temperature() const {
 
 template <int D>
 double Simulation<D>::spin_energy() const {
-  double squares = 0.0;
-  for (const Spin<D>& spin : spins()) squares += spin.squaredNorm();
-  return 0.5 * moment_of_inertia(model_.inertia, model_.diameter) * squares;
+  double twice = 0.0;
+  for (std::uint32_t i = 0; i < spins().size(); ++i) {
+    twice += grain(i).moment_of_inertia() * spins()[i].squaredNorm();
+  }
+  return 0.5 * twice;
 }
 
 template class Simulation<2>;

@@ -54,9 +54,10 @@ class Simulation {
   /// and changed walls: see above. All events up to now must have been processed, as after
   /// run_until(). Throws PhysicalStop if a wall would overlap a particle; nothing then has changed.
   void set_laws(const Model<D>& model);
-  /// Particles enter at rest at these positions, with the highest numbers. Throws PhysicalStop if
-  /// one overlaps another particle or a wall; the run then cannot continue.
-  void add_particles(const std::vector<Vec<D>>& positions);
+  /// Particles enter at rest at these positions, with the highest numbers. `grains` says what they
+  /// are in a mixture, and is empty otherwise. Throws PhysicalStop if one overlaps another particle
+  /// or a wall; the run then cannot continue.
+  void add_particles(const std::vector<Vec<D>>& positions, const std::vector<Grain>& grains = {});
 
   /// Prepares the particles in parts for the run. Returns false at a request to pause, and true
   /// once all is done. Throws PhysicalStop as the constructors do.
@@ -122,9 +123,11 @@ class Simulation {
   State<D> state() const;
   /// Hash of state(), in original order: equal for equal runs.
   std::uint64_t state_hash() const;
+  /// What a particle is.
+  const Grain& grain(std::uint32_t number) const { return loop_.grain(number); }
   /// Kinetic energy of all particles' centres at time().
   double kinetic_energy() const;
-  /// T = (m/DN) sum v^2 at time(); 0 without particles.
+  /// T = (1/DN) sum m v^2 at time(); 0 without particles.
   double temperature() const;
   /// Kinetic energy of all spins, sum of I omega^2 / 2.
   double spin_energy() const;

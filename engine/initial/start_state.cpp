@@ -43,7 +43,7 @@ static std::vector<Spin<D>> gaussian_spins(std::size_t count, double temperature
     sum += spins[i].squaredNorm();
   }
   const double freedoms = static_cast<double>(Spin<D>::SizeAtCompileTime * count);
-  const double scale = std::sqrt(freedoms * temperature / (moment_of_inertia(inertia, 1.0) * sum));
+  const double scale = std::sqrt(freedoms * temperature / (0.25 * inertia * sum));
   for (Spin<D>& spin : spins) spin *= scale;
   return spins;
 }

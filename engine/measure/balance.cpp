@@ -51,8 +51,7 @@ void Balance<D>::clear() {
 
 template <int D>
 double Balance<D>::half_inertia() const {
-  const Model<D>& model = simulation_.model();
-  return 0.5 * moment_of_inertia(model.inertia, model.diameter);
+  return 0.5 * simulation_.model().grain().moment_of_inertia();
 }
 
 template <int D>

@@ -92,8 +92,7 @@ typename CellIntegrals<D>::Rates CellIntegrals<D>::rates_of(const Vec<D>& v, con
     for (int k = 0; k < kSpinSize<D>; ++k) rates[at.spin + k] = spin[k];
   }
   const Model<D>& model = simulation_.model();
-  const double spin_energy =
-      0.5 * moment_of_inertia(model.inertia, model.diameter) * spin.squaredNorm();
+  const double spin_energy = 0.5 * model.grain().moment_of_inertia() * spin.squaredNorm();
   if (at.spin_energy >= 0) rates[at.spin_energy] = spin_energy;
   if (at.energy_flux >= 0) {
     const double energy = 0.5 * v.squaredNorm() + change.squaredNorm() / 24.0 + spin_energy;

@@ -25,7 +25,7 @@ double Totals<D>::energy_of_starts() const {
 
 template <int D>
 static double inertia_of(const Model<D>& model) {
-  return moment_of_inertia(model.inertia, model.diameter);
+  return model.grain().moment_of_inertia();
 }
 
 template <int D>

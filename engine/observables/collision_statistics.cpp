@@ -34,8 +34,8 @@ struct CollisionSums {
 // Kinetic energy of a particle before a collision.
 template <int D>
 double energy_before(const ParticleChange<D>& change) {
-  return 0.5 *
-         (change.velocity.squaredNorm() + change.moment_of_inertia * change.spin.squaredNorm());
+  return 0.5 * (change.velocity.squaredNorm() +
+                change.grain.moment_of_inertia() * change.spin.squaredNorm());
 }
 
 // Energy that a collision dissipates. A difference by rounding is 0.

@@ -59,7 +59,7 @@ void WallHits<D>::on_wall(const WallCollision<D>& collision) {
   const int axis = collision.side / 2;
   const ParticleChange<D>& change = collision.particle;
   const double before = change.velocity[axis];
-  const double after = before + change.gain.momentum[axis];
+  const double after = before + change.gain.momentum[axis] / change.grain.mass;
   const std::size_t first = HitSums<D>::means_of(collision.side);
   std::vector<double>& sums = sums_.values;
   sums[first + HitSums<D>::kCount] += 1.0;

@@ -13,21 +13,22 @@ namespace clatter {
 inline constexpr double kApproachRounding = 8.0 * std::numeric_limits<double>::epsilon();
 
 /// Time at which the particles of two flights touch, or kNever; see pair_contact_time. `shift` is
-/// added to a.r - b.r and selects the periodic image. Particles that already touch collide at once,
-/// but only if they approach faster than the rounding of their velocities. Otherwise the rounding
-/// of a collision would cause further collisions without end.
+/// added to a.r - b.r and selects the periodic image, `distance` that of the centres at contact.
+/// Particles that already touch collide at once, but only if they approach faster than the rounding
+/// of their velocities. Otherwise the rounding of a collision would cause further collisions
+/// without end.
 template <int D>
-double contact_time(const Flight<D>& a, const Flight<D>& b, const Vec<D>& shift, double diameter,
+double contact_time(const Flight<D>& a, const Flight<D>& b, const Vec<D>& shift, double distance,
                     const Vec<D>& gravity) {
   const double time =
       pair_contact_time<D, true>(a.r.data(), a.v.data(), a.time, b.r.data(), b.v.data(), b.time,
-                                 shift.data(), diameter, gravity.data());
+                                 shift.data(), distance, gravity.data());
   if (time != kTouching) return time;
   const double start = a.time > b.time ? a.time : b.time;
   const Vec<D> v_a = a.velocity_at(start, gravity);
   const Vec<D> v_b = b.velocity_at(start, gravity);
   const Vec<D> x = (a.at(start, gravity) - b.at(start, gravity)) + shift;
-  const double rounding = kApproachRounding * diameter * (v_a.norm() + v_b.norm());
+  const double rounding = kApproachRounding * distance * (v_a.norm() + v_b.norm());
   return x.dot(v_a - v_b) < -rounding ? start : kNever;
 }
 

@@ -39,22 +39,21 @@ template <int D, class Number>
 template <class Number>
 struct PairApproach {
   Number start;         ///< of the later flight
-  Number gap;           ///< |x|^2 - a^2 at the start
+  Number gap;           ///< |x|^2 - s^2 at the start, where s is the distance at contact
   Number rate;          ///< x.g
-  Number discriminant;  ///< g^2 a^2 - |x ^ g|^2
+  Number discriminant;  ///< g^2 s^2 - |x ^ g|^2
 };
 
-/// The approach of two flights. A null `shift` means 0. Without kFalling, `gravity` is not read.
+/// The approach of two flights. `distance` is that of the centres at contact: a Number, or a double
+/// for all pairs. A null `shift` means 0. Without kFalling, `gravity` is not read.
 ///
 /// Gravity accelerates all particles equally, so relative motion is along a straight line. Gravity
 /// enters only through the positions and velocities at the later flight's start.
-template <int D, bool kFalling, class Number>
-[[gnu::always_inline]] inline PairApproach<Number> approach_of(const Number* r_a, const Number* v_a,
-                                                               const Number& time_a,
-                                                               const Number* r_b, const Number* v_b,
-                                                               const Number& time_b,
-                                                               const Number* shift, double diameter,
-                                                               const double* gravity) {
+template <int D, bool kFalling, class Number, class Distance>
+[[gnu::always_inline]] inline PairApproach<Number> approach_of(
+    const Number* r_a, const Number* v_a, const Number& time_a, const Number* r_b,
+    const Number* v_b, const Number& time_b, const Number* shift, const Distance& distance,
+    const double* gravity) {
   const Number start = time_a > time_b ? time_a : time_b;
   const Number since_a = start - time_a, since_b = start - time_b;
   Number x[D], g[D];
@@ -77,16 +76,16 @@ template <int D, bool kFalling, class Number>
       wedge_squared = k == 0 && l == 1 ? area * area : wedge_squared + area * area;
     }
   }
-  return {start, dot<D>(x, x) - diameter * diameter, dot<D>(x, g),
-          dot<D>(g, g) * (diameter * diameter) - wedge_squared};
+  return {start, dot<D>(x, x) - distance * distance, dot<D>(x, g),
+          dot<D>(g, g) * (distance * distance) - wedge_squared};
 }
 
 /// Time at which the particles of two flights touch, kNever, or kTouching. Exchange of the flights
 /// with a negated shift gives the same bits. So the result does not depend on the particle and the
 /// time of the prediction.
 ///
-/// Contact is the first root of |x + g t| = a. Its discriminant is calculated as g^2 a^2 - |x ^
-/// g|^2. Unlike (x.g)^2 - g^2 (x^2 - a^2), this form has no cancellation for particles that start
+/// Contact is the first root of |x + g t| = s. Its discriminant is calculated as g^2 s^2 - |x ^
+/// g|^2. Unlike (x.g)^2 - g^2 (x^2 - s^2), this form has no cancellation for particles that start
 /// far apart.
 template <class Number>
 [[gnu::always_inline]] inline Number pair_contact_time(const PairApproach<Number>& a) {
@@ -102,10 +101,10 @@ template <int D, bool kFalling, class Number>
 [[gnu::always_inline]] inline Number pair_contact_time(const Number* r_a, const Number* v_a,
                                                        const Number& time_a, const Number* r_b,
                                                        const Number* v_b, const Number& time_b,
-                                                       const Number* shift, double diameter,
+                                                       const Number* shift, double distance,
                                                        const double* gravity) {
   return pair_contact_time(
-      approach_of<D, kFalling>(r_a, v_a, time_a, r_b, v_b, time_b, shift, diameter, gravity));
+      approach_of<D, kFalling>(r_a, v_a, time_a, r_b, v_b, time_b, shift, distance, gravity));
 }
 
 }  // namespace clatter

@@ -17,7 +17,8 @@ std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
 /// on numbers drawn for other items, so results do not depend on the order of calculation.
 class Random {
  public:
-  /// The numbers of item `item` < 2^56 of `owner` (a particle) in a stream of the run with this seed.
+  /// The numbers of item `item` < 2^56 of `owner` (a particle) in a stream of the run with this
+  /// seed.
   Random(std::uint64_t seed, Stream stream, std::uint32_t owner, std::uint64_t item);
 
   /// Uniform in the open interval (0,1), 52 bits.

@@ -4,6 +4,7 @@
 #include <variant>
 #include <vector>
 
+#include "engine/physics/grain.h"
 #include "engine/physics/spin.h"
 #include "engine/vec.h"
 
@@ -15,6 +16,7 @@ struct State {
   std::vector<Vec<D>> positions;    ///< [N] centres inside the box
   std::vector<Vec<D>> velocities;   ///< [N]
   std::vector<Spin<D>> spins = {};  ///< [N] angular velocities; empty without spins
+  std::vector<Grain> grains = {};   ///< [N] what the particles are; empty: all are alike
 
   bool operator==(const State&) const = default;
 };

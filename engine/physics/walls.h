@@ -30,28 +30,39 @@ Vec<D> reflect_moving(Vec<D> v, int axis, double inward, double restitution, dou
   return v;
 }
 
-/// Gain of a particle by friction at a wall (theory 4.5): the momentum -2 eta_w g_t and the spin (4
-/// eta_w/(q a)) n x g_t, with g_t from the velocity and spin before. `after` is the velocity after
-/// a smooth wall: Coulomb's bound uses the true normal impulse |v_n' - v_n| of every kind of wall.
+/// Change of velocity and spin.
 template <int D>
-Impulse<D> wall_friction(const Vec<D>& before, const Vec<D>& after, const Spin<D>& spin, int axis,
-                         double inward, const ContactLaw& law, double inertia, double diameter) {
+struct MotionChange {
+  Vec<D> velocity = Vec<D>::Zero();
+  Spin<D> spin = Spin<D>::Zero();
+};
+
+/// Change of a particle's motion by friction at a wall (theory 4.5), whose mass is infinite: the
+/// velocity -2 eta_w g_t and the spin (4 eta_w/(q a)) n x g_t, with g_t from the velocity and spin
+/// before. `after` is the velocity after a smooth wall: Coulomb's bound uses the true normal
+/// impulse |v_n' - v_n| of every kind of wall.
+template <int D>
+MotionChange<D> wall_friction(const Vec<D>& before, const Vec<D>& after, const Spin<D>& spin,
+                              int axis, double inward, const ContactLaw& law, const Grain& grain) {
+  if (!law.rough()) return {};
   const Vec<D> n = inward * Vec<D>::Unit(axis);
   const double normal_change = std::fabs(after[axis] - before[axis]);
-  const Impulse<D> friction =
-      friction_impulse<D>(n, before, spin, normal_change, law, inertia, diameter);
-  return {2.0 * friction.momentum, 2.0 * friction.spin};
+  const Spin<D> surface = grain.radius * spin;
+  const auto [slip, reversal] =
+      friction_of<D>(n, before, surface, normal_change, law, grain.inertia);
+  return {-grain.inertia * reversal * slip, reversal / grain.radius * cross<D>(n, slip)};
 }
 
 /// Velocity after a thermal wall of temperature T_w (theory 4.7): the normal component has the
-/// flux-weighted density (v/T_w) exp(-v^2/2T_w), v = sqrt(-2 T_w ln U), the others are Gaussian of
-/// variance T_w. `uniform` is in (0,1); `normals` holds D - 1 standard normal variates.
+/// flux-weighted density (m v/T_w) exp(-m v^2/2T_w), v = sqrt(-2 (T_w/m) ln U), the others are
+/// Gaussian of variance T_w/m. `variance` is T_w/m, `uniform` is in (0,1); `normals` holds D - 1
+/// standard normal variates.
 template <int D>
-Vec<D> emit(int axis, double inward, double temperature, double uniform, const double* normals) {
+Vec<D> emit(int axis, double inward, double variance, double uniform, const double* normals) {
   Vec<D> v;
   for (int k = 0; k < D; ++k) {
-    v[k] = k == axis ? inward * std::sqrt(-2.0 * temperature * natural_log(uniform))
-                     : std::sqrt(temperature) * *normals++;
+    v[k] = k == axis ? inward * std::sqrt(-2.0 * variance * natural_log(uniform))
+                     : std::sqrt(variance) * *normals++;
   }
   return v;
 }
@@ -59,9 +70,8 @@ Vec<D> emit(int axis, double inward, double temperature, double uniform, const d
 /// Spin after a thermal wall (theory 4): Gaussian of variance T_w/I per component.
 /// `normals` holds one standard normal variate per component.
 template <int D>
-Spin<D> emit_spin(double temperature, double inertia, double diameter, const double* normals) {
-  return std::sqrt(temperature / moment_of_inertia(inertia, diameter)) *
-         Eigen::Map<const Spin<D>>(normals);
+Spin<D> emit_spin(double temperature, const Grain& grain, const double* normals) {
+  return std::sqrt(temperature / grain.moment_of_inertia()) * Eigen::Map<const Spin<D>>(normals);
 }
 
 }  // namespace clatter

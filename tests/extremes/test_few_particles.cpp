@@ -196,7 +196,8 @@ class Images : public Observer<D> {
     const ContactLaw law{model_.restitution, kInfinity, 0.5};
     const double loss =
         dissipated_energy<D>(c.separation, c.particles[0].velocity - c.particles[1].velocity,
-                             c.particles[0].spin + c.particles[1].spin, law, model_.inertia, 1.0);
+                             0.5 * (c.particles[0].spin + c.particles[1].spin), law,
+                             {c.particles[0].grain, c.particles[1].grain});
     const double lost = -(c.particles[0].energy() + c.particles[1].energy());
     worst_loss = std::max(worst_loss, std::fabs(lost - loss));
   }

@@ -44,15 +44,21 @@ inline double random_inertia(Random& random) {
   return std::array{0.5, 0.4, 0.01 + random.uniform()}[random.below(3)];
 }
 
+/// A particle of random size, mass and inertia.
+inline Grain random_grain(Random& random) {
+  return {.radius = 0.25 + 0.5 * random.uniform(),
+          .mass = std::pow(10.0, 4.0 * random.uniform() - 2.0),
+          .inertia = random_inertia(random)};
+}
+
 /// The tangential impulse directly from the contact laws, without the formulas of beta and eta. It
-/// changes the slip to -beta_0 times its value, limited by Coulomb's law. An impulse J changes the
-/// slip by (sum of 1/m) (1 + 1/q) J. The sum is 2 for two particles and 1 for a particle at a wall.
+/// changes the slip to -beta_0 times its value, limited by Coulomb's law. `per_impulse` is the
+/// change of the slip by a tangential impulse of 1: the sum over the particles of (1/m) (1 + 1/q).
 template <int D>
 Vec<D> friction_by_law(const Vec<D>& n, const Vec<D>& surface_velocity, double normal_impulse,
-                       const ContactLaw& law, double inertia, double inverse_masses) {
+                       const ContactLaw& law, double per_impulse) {
   const Vec<D> slip = surface_velocity - n.dot(surface_velocity) * n;
-  const double reversing =
-      (1.0 + law.tangential_restitution) * slip.norm() / (inverse_masses * (1.0 + 1.0 / inertia));
+  const double reversing = (1.0 + law.tangential_restitution) * slip.norm() / per_impulse;
   return -std::min(reversing, law.friction * normal_impulse) * slip.normalized();
 }
 

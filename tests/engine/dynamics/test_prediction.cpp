@@ -55,10 +55,11 @@ struct Planned {
       plans[i].cell = near->place(i, r - image.cwiseProduct(model.box));
     }
     boundary.emplace(model, *clock);
-    prediction.emplace(model, *boundary, particles, *near);
+    prediction.emplace(model, *boundary, particles, alike, *near);
     for (std::uint32_t i = 0; i < particles.size(); ++i) prediction->plan({i, &plans[i]}, now);
   }
 
+  const LargeArray<Grain> alike = {};
   Model<2> model;
   double now;
   std::optional<Clock> clock;

@@ -63,7 +63,7 @@ TEST_CASE("Contact: a collision is not followed by another one at once") {
     const Vec2 x = a.r - b.r;
     if (x.dot(a.v - b.v) > 0.0) b.v = 2.0 * a.v - b.v;
     const auto collides_again = [&] {
-      const Vec2 impulse = collision_impulse<2>(x, a.v - b.v, i % 2, 1.0);
+      const Vec2 impulse = collision_impulse<2>(x, a.v - b.v, i % 2, {});
       a.v += impulse;
       b.v -= impulse;
       return contact_time<2>(a, b, Vec2::Zero(), 1.0, kNoGravity) == 0.0;

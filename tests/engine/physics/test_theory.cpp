@@ -48,13 +48,15 @@ struct Gains {
 /// the mean exactly. For colliding particles <g_n^2> = 4 T_tr.
 template <int D>
 Gains mean_gains(const RoughGas& gas, const Temperatures& T) {
-  const double moment = moment_of_inertia(gas.inertia, 1.0);
+  const double moment = 0.25 * gas.inertia;
   const ContactLaw law = {gas.restitution, std::numeric_limits<double>::infinity(),
                           gas.tangential_restitution};
   const Vec<D> n = Vec<3>(2.0, -3.0, 6.0).head<D>().normalized();
   Gains gains;
   const auto add = [&](const Vec<D>& v, const Spin<D>& first, const Spin<D>& second) {
-    const Impulse<D> impulse = rough_impulse<D>(n, v, first + second, law, gas.inertia, 1.0);
+    const Grain grain = {.inertia = gas.inertia};
+    const Impulse<D> impulse =
+        rough_impulse<D>(n, v, 0.5 * (first + second), law, {grain, grain}).of(0);
     // In the frame of both centres of mass.
     gains.translational += (0.5 * v + impulse.momentum).squaredNorm() - 0.25 * v.squaredNorm();
     gains.rotational += 0.5 * moment *

@@ -29,8 +29,9 @@ struct RoughHit {
 
   Vec<D> n() const { return inward * Vec<D>::Unit(axis); }
   double normal_change() const { return std::fabs(after[axis] - v[axis]); }
-  Impulse<D> friction() const {
-    return wall_friction<D>(v, smooth, spin, axis, inward, law, inertia, diameter);
+  Grain grain() const { return {.radius = 0.5 * diameter, .inertia = inertia}; }
+  MotionChange<D> friction() const {
+    return wall_friction<D>(v, smooth, spin, axis, inward, law, grain());
   }
   Vec<D> surface_velocity() const { return v + 0.5 * diameter * cross_spin<D>(n(), spin); }
   double moment_of_inertia() const { return 0.25 * inertia * diameter * diameter; }
@@ -53,8 +54,8 @@ RoughHit<D> random_hit(std::uint32_t number) {
   hit.smooth = number % 2
                    ? reflect<D>(hit.v, hit.axis, hit.inward, hit.law.restitution, speed)
                    : reflect_moving<D>(hit.v, hit.axis, hit.inward, hit.law.restitution, speed);
-  const Impulse<D> friction = hit.friction();
-  hit.after = hit.smooth + friction.momentum;
+  const MotionChange<D> friction = hit.friction();
+  hit.after = hit.smooth + friction.velocity;
   hit.spin_after = hit.spin + friction.spin;
   return hit;
 }
@@ -131,24 +132,24 @@ TEST_CASE_TEMPLATE("Walls: friction is Walton's and Coulomb's at a wall of infin
   int normal_changed = 0;
   for (std::uint32_t i = 0; i < kHits; ++i) {
     const RoughHit<D> hit = random_hit<D>(i);
-    const Impulse<D> friction = hit.friction();
+    const MotionChange<D> friction = hit.friction();
     const Vec<D> g = hit.surface_velocity();
     const Vec<D> dragged =
-        friction_by_law<D>(hit.n(), g, hit.normal_change(), hit.law, hit.inertia, 1.0);
-    impulse_off = std::max(impulse_off, (friction.momentum - dragged).norm() / g.norm());
+        friction_by_law<D>(hit.n(), g, hit.normal_change(), hit.law, 1.0 + 1.0 / hit.inertia);
+    impulse_off = std::max(impulse_off, (friction.velocity - dragged).norm() / g.norm());
     normal_changed += hit.after[hit.axis] != hit.smooth[hit.axis];
     if (!hit.law.rough()) {
-      REQUIRE(friction.momentum == Vec<D>(Vec<D>::Zero()));
+      REQUIRE(friction.velocity == Vec<D>(Vec<D>::Zero()));
       REQUIRE(friction.spin == Spin<D>(Spin<D>::Zero()));
     }
     // The force of the wall acts at the contact point, so that the angular momentum about it is
     // conserved.
     const double arm = 0.5 * hit.diameter;
     const Spin<D> torque =
-        arm * cross<D>(hit.n(), friction.momentum) + hit.moment_of_inertia() * friction.spin;
+        arm * cross<D>(hit.n(), friction.velocity) + hit.moment_of_inertia() * friction.spin;
     torque_off = std::max(torque_off, torque.norm() / (arm * g.norm()));
     if (hit.law.friction == 0.0) continue;
-    const double share = friction.momentum.norm() / (hit.law.friction * hit.normal_change());
+    const double share = friction.velocity.norm() / (hit.law.friction * hit.normal_change());
     coulomb_excess = std::max(coulomb_excess, share - 1.0);
   }
   CHECK(impulse_off < 1e-13);
@@ -194,7 +195,7 @@ TEST_CASE_TEMPLATE("Walls: scaling by powers of two changes no bit of friction",
     scaled.v *= kSpeed;
     scaled.smooth *= kSpeed;
     scaled.spin *= kSpeed / kLength;
-    different += scaled.friction().momentum != hit.friction().momentum * kSpeed;
+    different += scaled.friction().velocity != hit.friction().velocity * kSpeed;
     different += scaled.friction().spin != hit.friction().spin * (kSpeed / kLength);
   }
   CHECK(different == 0);
@@ -204,39 +205,40 @@ TEST_CASE("Walls: friction has the impulses computed by hand") {
   // n = (-1,0), a = 1, q = 1/2: g_t = v_y + omega/2.
   const double infinity = std::numeric_limits<double>::infinity();
   const auto hit = [](const ContactLaw& law, Vec2 v, double spin, double normal_after) {
-    return wall_friction<2>(v, {normal_after, v.y()}, Spin<2>(spin), 0, -1.0, law, 0.5, 1.0);
+    return wall_friction<2>(v, {normal_after, v.y()}, Spin<2>(spin), 0, -1.0, law, Grain());
   };
   // g_t = 3 - 6/2 = 0.
-  CHECK(hit({1.0, infinity, 1.0}, {2.0, 3.0}, -6.0, -2.0).momentum == Vec2(0.0, 0.0));
+  CHECK(hit({1.0, infinity, 1.0}, {2.0, 3.0}, -6.0, -2.0).velocity == Vec2(0.0, 0.0));
   CHECK(hit({1.0, 0.1, 1.0}, {2.0, 3.0}, -6.0, -2.0).spin[0] == 0.0);
   // eta = .5 * 2/(2 * 1.5) = 1/3: momentum -2, spin -4 (1/3) 3/.5 = -8.
-  CHECK(hit({1.0, infinity, 1.0}, {2.0, 3.0}, 0.0, -2.0).momentum.isApprox(Vec2(0.0, -2.0), 1e-15));
+  CHECK(hit({1.0, infinity, 1.0}, {2.0, 3.0}, 0.0, -2.0).velocity.isApprox(Vec2(0.0, -2.0), 1e-15));
   CHECK(hit({1.0, infinity, 1.0}, {2.0, 3.0}, 0.0, -2.0).spin[0] ==
         doctest::Approx(-8.0).epsilon(1e-15));
   // Coulomb, with the normal impulse of a driven wall: |J_t| = .1 * (2 + 3) = .5, spin -2 |J_t|/q =
   // -2.
-  CHECK(hit({1.0, 0.1, 1.0}, {2.0, 3.0}, 0.0, -3.0).momentum.isApprox(Vec2(0.0, -0.5), 1e-15));
+  CHECK(hit({1.0, 0.1, 1.0}, {2.0, 3.0}, 0.0, -3.0).velocity.isApprox(Vec2(0.0, -0.5), 1e-15));
   CHECK(hit({1.0, 0.1, 1.0}, {2.0, 3.0}, 0.0, -3.0).spin[0] ==
         doctest::Approx(-2.0).epsilon(1e-15));
   // Smooth.
   for (const ContactLaw& law : {ContactLaw{1.0, 0.0, 1.0}, ContactLaw{1.0, infinity, -1.0}}) {
-    CHECK(hit(law, {2.0, 3.0}, 1.0, -2.0).momentum == Vec2(0.0, 0.0));
+    CHECK(hit(law, {2.0, 3.0}, 1.0, -2.0).velocity == Vec2(0.0, 0.0));
     CHECK(hit(law, {2.0, 3.0}, 1.0, -2.0).spin[0] == 0.0);
   }
 }
 
-// T_rot = I <omega^2> = T_w, I = q a^2/4: variance 4 T_w/(q a^2).
+// T_rot = I <omega^2> = T_w, I = q m a^2/4: variance 4 T_w/(q m a^2).
 TEST_CASE_TEMPLATE("Walls: a thermal wall emits spins at its temperature", Dimension, Plane,
                    Space) {
   constexpr int D = Dimension::value, kSpins = D * (D - 1) / 2;
   constexpr int kSamples = 100000;
-  constexpr double kT = 2.25, kInertia = 0.4, kDiameter = 1.5;
-  constexpr double kVariance = kT / (0.25 * kInertia * kDiameter * kDiameter);  // 10
+  constexpr double kT = 2.25, kInertia = 0.4, kDiameter = 1.5, kMass = 5.0;
+  constexpr double kVariance = kT / (0.25 * kMass * kInertia * kDiameter * kDiameter);  // 2
+  const Grain grain = {.radius = 0.5 * kDiameter, .mass = kMass, .inertia = kInertia};
   double sum = 0.0, squares = 0.0;
   for (std::uint32_t i = 0; i < kSamples; ++i) {
     Random random(43, Stream::ThermalWall, i, 0);
     const Spin<D> normals = random_vector<Spin<D>>(random);
-    const Spin<D> spin = emit_spin<D>(kT, kInertia, kDiameter, normals.data());
+    const Spin<D> spin = emit_spin<D>(kT, grain, normals.data());
     sum += spin.sum();
     squares += spin.squaredNorm();
   }

@@ -32,6 +32,11 @@ static IntVec<D> divide(const Model<D>& model, int count) {
 }
 
 template <int D>
+static bool is_walled(const Model<D>& model) {
+  return std::ranges::any_of(model.walls, [](const auto& wall) { return wall.has_value(); });
+}
+
+template <int D>
 State<D> random_gas(const Model<D>& model, int count, std::uint64_t seed) {
   State<D> state;
   if (count == 0) return state;
@@ -53,9 +58,7 @@ State<D> random_gas(const Model<D>& model, int count, std::uint64_t seed) {
     state.velocities.push_back(v);
     mean += v / count;
   }
-  const bool walled =
-      std::ranges::any_of(model.walls, [](const auto& wall) { return wall.has_value(); });
-  if (!walled && count > 1) {
+  if (!is_walled(model) && count > 1) {
     for (Vec<D>& v : state.velocities) v -= mean;
   }
   return state;
@@ -81,11 +84,34 @@ State<D> clear_gas(const Model<D>& model, int count, std::uint64_t seed) {
 }
 
 template <int D>
+State<D> mixed_gas(const Model<D>& model, int count, std::uint64_t seed, double ratio) {
+  State<D> state = clear_gas(model, count, seed);
+  const double radius = 0.5 * model.diameter;
+  const Grain grains[] = {
+      {.radius = radius, .mass = 2.0, .inertia = model.inertia, .species = 0},
+      {.radius = radius / ratio, .mass = 1.0 / ratio, .inertia = 0.8 * model.inertia, .species = 1},
+      {.radius = radius / std::sqrt(ratio), .mass = 3.0, .inertia = model.inertia, .species = 2}};
+  Vec<D> momentum = Vec<D>::Zero();
+  double mass = 0.0;
+  for (std::size_t i = 0; i < state.velocities.size(); ++i) {
+    state.grains.push_back(grains[i % 3]);
+    momentum += grains[i % 3].mass * state.velocities[i];
+    mass += grains[i % 3].mass;
+  }
+  if (is_walled(model)) return state;
+  for (Vec<D>& v : state.velocities) v -= momentum / mass;
+  return state;
+}
+
+template <int D>
 double brute_force_overlap(const Model<D>& model, const State<D>& state) {
   double deepest = 0.0;
   IntVec<D> reach;
   for (int axis = 0; axis < D; ++axis) reach[axis] = model.periodic(axis) ? 2 : 0;
   const std::size_t count = state.positions.size();
+  const auto radius = [&](std::size_t i) {
+    return state.grains.empty() ? 0.5 * model.diameter : state.grains[i].radius;
+  };
   for (std::size_t i = 0; i < count; ++i) {
     const Vec<D>& r = state.positions[i];
     for (std::size_t j = i + 1; j < count; ++j) {
@@ -94,8 +120,9 @@ double brute_force_overlap(const Model<D>& model, const State<D>& state) {
       while (image[D - 1] <= reach[D - 1]) {
         const double squared =
             (x + image.template cast<double>().cwiseProduct(model.box)).squaredNorm();
-        if (squared < model.diameter * model.diameter) {
-          deepest = std::max(deepest, 1.0 - std::sqrt(squared) / model.diameter);
+        const double distance = radius(i) + radius(j);
+        if (squared < distance * distance) {
+          deepest = std::max(deepest, (distance - std::sqrt(squared)) / model.diameter);
         }
         for (int axis = 0; ++image[axis] > reach[axis] && axis < D - 1; ++axis) {
           image[axis] = -reach[axis];
@@ -104,8 +131,7 @@ double brute_force_overlap(const Model<D>& model, const State<D>& state) {
     }
     for (int axis = 0; axis < D; ++axis) {
       if (model.periodic(axis)) continue;
-      const double beyond =
-          std::max(model.wall_plane(axis, 0) - r[axis], r[axis] - model.wall_plane(axis, 1));
+      const double beyond = std::max(radius(i) - r[axis], r[axis] - (model.box[axis] - radius(i)));
       deepest = std::max(deepest, beyond / model.diameter);
     }
   }
@@ -147,6 +173,7 @@ void check_sound(const Simulation<D>& simulation) {
 
 template State<2> random_gas(const Model<2>&, int, std::uint64_t);
 template State<2> clear_gas(const Model<2>&, int, std::uint64_t);
+template State<2> mixed_gas(const Model<2>&, int, std::uint64_t, double);
 template double brute_force_overlap(const Model<2>&, const State<2>&);
 template Vec<2> momentum(const State<2>&);
 template bool finite_and_inside(const Model<2>&, const State<2>&);
@@ -154,6 +181,7 @@ template std::string stop_of(Simulation<2>&, double);
 template void check_sound(const Simulation<2>&);
 template State<3> random_gas(const Model<3>&, int, std::uint64_t);
 template State<3> clear_gas(const Model<3>&, int, std::uint64_t);
+template State<3> mixed_gas(const Model<3>&, int, std::uint64_t, double);
 template double brute_force_overlap(const Model<3>&, const State<3>&);
 template Vec<3> momentum(const State<3>&);
 template bool finite_and_inside(const Model<3>&, const State<3>&);

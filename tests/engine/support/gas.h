@@ -18,6 +18,12 @@ State<D> random_gas(const Model<D>& model, int count, std::uint64_t seed);
 template <int D>
 State<D> clear_gas(const Model<D>& model, int count, std::uint64_t seed);
 
+/// The same gas, in which every second and third particle of three are of other species: their
+/// diameters are those of the model divided by `ratio` and by its root, their masses and inertias
+/// differ.
+template <int D>
+State<D> mixed_gas(const Model<D>& model, int count, std::uint64_t seed, double ratio);
+
 /// Deepest overlap in diameters, of two particles through any image, or of a particle with a wall.
 /// Tests every pair and every image.
 template <int D>

@@ -95,6 +95,27 @@ Model<D> with_contact_time(Model<D> model, double contact_time) {
   return model;
 }
 
+/// The same model with laws for the three species of mixed_gas. Every pair of species has its own
+/// law, and the second species its own laws of walls.
+template <int D>
+Model<D> with_species(Model<D> model) {
+  SpeciesLaws<D> laws{.pairs = {}, .walls = {3, model.walls}};
+  for (int k = 0; k < 9; ++k) {
+    // 0: one with itself; 1, 2, 3: the others, in both orders.
+    const int between = k / 3 == k % 3 ? k / 3 : 2 + k / 3 + k % 3;
+    Roughness roughness = model.roughness;
+    if (roughness.any()) roughness.friction = 0.1 + 0.1 * between;
+    laws.pairs.push_back({model.restitution * (1.0 - 0.05 * between), roughness});
+  }
+  for (auto& wall : laws.walls[1]) {
+    if (!wall) continue;
+    wall->restitution *= 0.75;
+    wall->temperature *= 2.0;
+  }
+  model.species = laws;
+  return model;
+}
+
 /// All features: walls of every kind, rough particles, gravity, kicks, t_c.
 template <int D = 2>
 Model<D> everything();

@@ -15,6 +15,7 @@ template <int D>
 Reference<D>::Reference(const Model<D>& model, const State<D>& state, const BaseMoves<D>& moves)
     : model_(model),
       boundary_(model_, clock_),
+      grains_(state.grains),
       spins_(state.spins),
       last_collisions_(state.positions.size(), -kNever),
       moves_(moves) {
@@ -78,7 +79,8 @@ void Reference<D>::weigh_pair(std::uint32_t i, std::uint32_t j, double horizon, 
   IntVec<D> from = IntVec<D>::Zero(), to = IntVec<D>::Zero();
   for (int axis = 0; axis < D; ++axis) {
     if (model_.periodic(axis)) {
-      const double reach = model_.diameter + std::fabs(g[axis]) * (horizon - now_);
+      const double reach =
+          grain(i).radius + grain(j).radius + std::fabs(g[axis]) * (horizon - now_);
       from[axis] = static_cast<int>(std::floor((-x[axis] - reach) / model_.box[axis])) - 1;
       to[axis] = static_cast<int>(std::ceil((-x[axis] + reach) / model_.box[axis])) + 1;
     }
@@ -87,7 +89,8 @@ void Reference<D>::weigh_pair(std::uint32_t i, std::uint32_t j, double horizon, 
   IntVec<D> image = from;
   while (image[0] <= to[0]) {
     const Vec<D> shift = image.template cast<double>().cwiseProduct(model_.box);
-    const Event event{contact_time<D>(a, b, shift, model_.diameter, model_.gravity), i, j};
+    const double distance = grain(i).radius + grain(j).radius;
+    const Event event{contact_time<D>(a, b, shift, distance, model_.gravity), i, j};
     if (event.time < kNever && before(event, first.event)) first = {event, image};
     for (int axis = D - 1; ++image[axis] > to[axis] && axis > 0; --axis) image[axis] = from[axis];
   }
@@ -97,7 +100,7 @@ template <int D>
 void Reference<D>::weigh_walls(std::uint32_t i, Next& first) const {
   for (int side = 0; side < 2 * D; ++side) {
     if (!model_.walls[side]) continue;
-    const double time = boundary_.contact_time(side, flights_[i], now_);
+    const double time = boundary_.contact_time(side, flights_[i], grain(i).radius, now_);
     const Event event{time, i, kWall + static_cast<std::uint32_t>(side)};
     if (time < kNever && before(event, first.event)) first = {event, IntVec<D>::Zero()};
   }
@@ -120,13 +123,17 @@ void Reference<D>::collide(const Next& next) {
   const Vec<D> r_a = a.at(now_, model_.gravity), r_b = b.at(now_, model_.gravity);
   const Vec<D> v_a = a.velocity_at(now_, model_.gravity), v_b = b.velocity_at(now_, model_.gravity);
   const Vec<D> x = (r_a - r_b) + next.image.template cast<double>().cwiseProduct(model_.box);
-  Impulse<D> gain;
+  const Grain one = grain(i), other = grain(j);
+  Exchange<D> gain;
   if (x.dot(v_a - v_b) < 0.0) {
+    const Spin<D> surface = one.radius * spin(i) + other.radius * spin(j);
     const bool elastic = within_contact_time(i) || within_contact_time(j);
-    gain = pair_outcome<D>(model_, x, v_a - v_b, spin(i) + spin(j), elastic).gain;
+    gain = pair_outcome<D>(model_.pair(one.species, other.species).contact(), {one, other}, x,
+                           v_a - v_b, surface, elastic)
+               .gain;
   }
-  renew(i, r_a, v_a + gain.momentum, spin(i) + gain.spin);
-  renew(j, r_b, v_b - gain.momentum, spin(j) + gain.spin);
+  renew(i, r_a, v_a + gain.momentum / one.mass, spin(i) + gain.spins[0]);
+  renew(j, r_b, v_b - gain.momentum / other.mass, spin(j) + gain.spins[1]);
   last_collisions_[i] = last_collisions_[j] = now_;
   ++particle_particle_;
 }
@@ -136,10 +143,11 @@ void Reference<D>::hit_wall(const Event& event) {
   const std::uint32_t i = event.particle;
   const int side = static_cast<int>(event.partner - kWall);
   Vec<D> r = flights_[i].at(now_, model_.gravity);
-  if (!model_.walls[side]->moves()) r[side / 2] = boundary_.touching_place(side, now_);
+  if (!model_.walls[side]->moves())
+    r[side / 2] = boundary_.touching_place(side, grain(i).radius, now_);
   const Departure<D> departure = wall_outcome<D>(
       model_, side, boundary_.wall(side, now_),
-      {flights_[i].velocity_at(now_, model_.gravity), spin(i), i, flights_[i].number},
+      {flights_[i].velocity_at(now_, model_.gravity), spin(i), i, flights_[i].number, grain(i)},
       within_contact_time(i));
   renew(i, r, departure.velocity, departure.spin);
   last_collisions_[i] = now_;
@@ -158,14 +166,17 @@ void Reference<D>::kick() {
   const auto count = static_cast<std::uint32_t>(flights_.size());
   std::vector<Vec<D>> kicks(count);
   std::vector<Spin<D>> spin_kicks(count, Spin<D>::Zero());
+  double mass = 0.0;
+  for (std::uint32_t i = 0; i < count; ++i) mass += grain(i).mass;
   Vec<D> mean = Vec<D>::Zero();
   for (std::uint32_t i = 0; i < count; ++i) {
     Random random(model_.seed, Stream::Kick, i, static_cast<std::uint32_t>(kicks_));
-    for (double& kick : kicks[i]) kick = model_.bulk_drive->kick_speed * random.normal();
+    const double speed = model_.bulk_drive->kick_speed_of(grain(i).mass);
+    for (double& kick : kicks[i]) kick = speed * random.normal();
     for (double& kick : spin_kicks[i]) {
       if (model_.spins) kick = model_.bulk_drive->kick_spin * random.normal();
     }
-    mean += kicks[i] / count;
+    mean += kicks[i] / (mass / grain(i).mass);
   }
   for (std::uint32_t i = 0; i < count; ++i) {
     renew(i, flights_[i].at(now_, model_.gravity),

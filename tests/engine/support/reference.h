@@ -69,6 +69,7 @@ class Reference {
   void hit_wall(const Event& event);
   bool within_contact_time(std::uint32_t i) const;
   Spin<D> spin(std::uint32_t i) const;
+  Grain grain(std::uint32_t i) const { return grains_.empty() ? model_.grain() : grains_[i]; }
   void renew(std::uint32_t i, const Vec<D>& r, const Vec<D>& v, const Spin<D>& spin);
   Vec<D> wrapped(const Vec<D>& r) const;
   void move_base();
@@ -77,6 +78,7 @@ class Reference {
   Clock clock_;
   Boundary<D> boundary_;
   std::vector<Flight<D>> flights_;
+  std::vector<Grain> grains_;
   std::vector<Spin<D>> spins_;
   std::vector<double> last_collisions_;
   double now_ = 0.0;
