@@ -123,6 +123,8 @@ class Simulation {
   State<D> state() const;
   /// Hash of state(), in original order: equal for equal runs.
   std::uint64_t state_hash() const;
+  /// Whether particles have sizes and masses of their own.
+  bool is_mixture() const { return !loop_.grains().empty(); }
   /// What a particle is.
   const Grain& grain(std::uint32_t number) const { return loop_.grain(number); }
   /// Kinetic energy of all particles' centres at time().

@@ -20,7 +20,8 @@ LiveProfile<D>::LiveProfile(Simulation<D>& simulation, double window, Axis axis)
     : axis_(axis),
       start_(simulation.time() + window),
       observer_(simulation, columns_in(simulation.model(), axis),
-                moment_layout<D>(profiled_fields(axis), simulation.model().spins)),
+                moment_layout<D>(profiled_fields(axis), simulation.model().spins,
+                                 simulation.is_mixture())),
       observation_(simulation, observer_),
       timers_(simulation) {
   watch(window);
@@ -32,7 +33,8 @@ LiveProfile<D>::LiveProfile(Simulation<D>& simulation, double window, Axis axis,
     : axis_(axis),
       start_(0.0),
       observer_(simulation, columns_in(simulation.model(), axis),
-                moment_layout<D>(profiled_fields(axis), simulation.model().spins)),
+                moment_layout<D>(profiled_fields(axis), simulation.model().spins,
+                                 simulation.is_mixture())),
       observation_(simulation, observer_),
       timers_(simulation) {
   saved(*this);

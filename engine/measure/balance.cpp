@@ -50,32 +50,32 @@ void Balance<D>::clear() {
 }
 
 template <int D>
-double Balance<D>::half_inertia() const {
-  return 0.5 * simulation_.model().grain().moment_of_inertia();
-}
-
-template <int D>
 Spin<D> Balance<D>::spin(std::uint32_t particle) const {
   if (simulation_.spins().empty()) return Spin<D>::Zero();
   return simulation_.spins()[particle];
 }
 
 template <int D>
-Conserved<D> Balance<D>::carried(const Vec<D>& velocity, const Spin<D>& spin) const {
-  return conserved<D>(1.0, velocity,
-                      0.5 * velocity.squaredNorm() + half_inertia() * spin.squaredNorm());
+Conserved<D> Balance<D>::carried(std::uint32_t particle, const Vec<D>& velocity,
+                                 const Spin<D>& spin) const {
+  const Grain& grain = simulation_.grain(particle);
+  return conserved<D>(
+      grain.mass, grain.mass * velocity,
+      0.5 * (grain.mass * velocity.squaredNorm() + grain.moment_of_inertia() * spin.squaredNorm()));
 }
 
 // Gain, since the window's start, of a particle that is in its first cell. Avoids the rounding of a
 // difference of squares.
 template <int D>
-Conserved<D> Balance<D>::gained(const Tracked& particle, const Vec<D>& velocity,
+Conserved<D> Balance<D>::gained(std::uint32_t particle, const Vec<D>& velocity,
                                 const Spin<D>& spin) const {
-  const Vec<D> dp = velocity - particle.first_velocity;
-  const Spin<D> dw = spin - particle.first_spin;
+  const Tracked& before = particles_[particle];
+  const Grain& grain = simulation_.grain(particle);
+  const Vec<D> dp = grain.mass * (velocity - before.first_velocity);
+  const Spin<D> dw = spin - before.first_spin;
   return conserved<D>(0.0, dp,
-                      0.5 * dp.dot(velocity + particle.first_velocity) +
-                          half_inertia() * dw.dot(spin + particle.first_spin));
+                      0.5 * (dp.dot(velocity + before.first_velocity) +
+                             grain.moment_of_inertia() * dw.dot(spin + before.first_spin)));
 }
 
 template <int D>
@@ -90,16 +90,17 @@ void Balance<D>::follow(std::uint32_t particle, const Flight<D>& flight, double 
         fall(particle, cell, flight, from, until);
       },
       [&](const Cell& cell, double time, int axis, int step) {
-        pass(cell, axis, step, carried(flight.velocity_at(time, gravity), spin(particle)));
+        pass(cell, axis, step,
+             carried(particle, flight.velocity_at(time, gravity), spin(particle)));
       });
 }
 
 // A weight for rounding: 1e-9 of the momentum and energy of a particle whose motion changes.
 // Relative to it the rounding of the change is 1e-7, even if friction or gravity give very little.
 template <int D>
-Conserved<D> Balance<D>::rounding(const Vec<D>& velocity, const Spin<D>& spin) const {
+Conserved<D> Balance<D>::rounding(std::uint32_t particle, const Vec<D>& velocity) const {
   constexpr double kShare = 1e-9;
-  Conserved<D> weight = kShare * carried(velocity, spin).cwiseAbs();
+  Conserved<D> weight = kShare * carried(particle, velocity, spin(particle)).cwiseAbs();
   weight[0] = 0.0;
   return weight;
 }
@@ -112,11 +113,11 @@ void Balance<D>::fall(std::uint32_t particle, const Cell& cell, const Flight<D>&
   if (gravity.isZero(0.0)) return;
   const Vec<D> v = flight.velocity_at(begin, gravity);
   const Vec<D> w = flight.velocity_at(end, gravity);
-  const Vec<D> gained = (end - begin) * gravity;
+  const Vec<D> gained = simulation_.grain(particle).mass * (end - begin) * gravity;
   arise(cell, conserved<D>(0.0, gained, 0.5 * gained.dot(v + w)));
   const double weight = 0.5 * gained.cwiseAbs().dot(v.cwiseAbs() + w.cwiseAbs());
   booked_.weights[grid_.index_of(cell)] +=
-      conserved<D>(0.0, Vec<D>::Zero(), weight) + rounding(v, spin(particle));
+      conserved<D>(0.0, Vec<D>::Zero(), weight) + rounding(particle, v);
 }
 
 template <int D>
@@ -150,8 +151,9 @@ template <int D>
 void Balance<D>::weigh(const ParticleChange<D>& change) {
   const Vec<D>& p = change.gain.momentum;
   booked_.weights[grid_.index_of(particles_[change.particle].cell)] +=
-      conserved<D>(0.0, p.cwiseAbs(), 0.5 * p.squaredNorm() + std::fabs(p.dot(change.velocity))) +
-      rounding(change.velocity, spin(change.particle));
+      conserved<D>(0.0, p.cwiseAbs(),
+                   0.5 * p.squaredNorm() / change.grain.mass + std::fabs(p.dot(change.velocity))) +
+      rounding(change.particle, change.velocity);
 }
 
 // Each partner changes in its own cell. Momentum and the energy (1/2)(dE_0 - dE_1) pass along the
@@ -181,7 +183,7 @@ void Balance<D>::on_wall(const WallCollision<D>& collision) {
   weigh(particle);
   const int axis = collision.side / 2;
   const Vec<D> branch =
-      0.5 * simulation_.model().diameter * Boundary<D>::inward(collision.side) * Vec<D>::Unit(axis);
+      particle.grain.radius * Boundary<D>::inward(collision.side) * Vec<D>::Unit(axis);
   const Vec<D> touching = particle.position - branch;
   const Cell& to = particles_[particle.particle].cell;
   Cell from = to;
@@ -221,10 +223,10 @@ Imbalances<D> Balance<D>::take_changes(double now) {
     if (!grid_.contains(particle.cell, r)) particle.cell = grid_.cell_at(r);
     const std::size_t to = grid_.index_of(particle.cell), from = particle.first_cell;
     if (to == from) {
-      taken.gaps[to] += gained(particle, v, spin(i));
+      taken.gaps[to] += gained(i, v, spin(i));
     } else {
-      taken.gaps[to] += carried(v, spin(i));
-      taken.gaps[from] -= carried(particle.first_velocity, particle.first_spin);
+      taken.gaps[to] += carried(i, v, spin(i));
+      taken.gaps[from] -= carried(i, particle.first_velocity, particle.first_spin);
     }
     particle = {particle.cell, to, v, spin(i)};
   }

@@ -134,12 +134,11 @@ class Balance : public Observer<D> {
     }
   };
 
-  double half_inertia() const;
   Spin<D> spin(std::uint32_t particle) const;
-  Conserved<D> carried(const Vec<D>& velocity, const Spin<D>& spin) const;
-  Conserved<D> gained(const Tracked& particle, const Vec<D>& velocity, const Spin<D>& spin) const;
+  Conserved<D> carried(std::uint32_t particle, const Vec<D>& velocity, const Spin<D>& spin) const;
+  Conserved<D> gained(std::uint32_t particle, const Vec<D>& velocity, const Spin<D>& spin) const;
   void follow(std::uint32_t particle, const Flight<D>& flight, double end);
-  Conserved<D> rounding(const Vec<D>& velocity, const Spin<D>& spin) const;
+  Conserved<D> rounding(std::uint32_t particle, const Vec<D>& velocity) const;
   void fall(std::uint32_t particle, const Cell& cell, const Flight<D>& flight, double begin,
             double end);
   void weigh(const ParticleChange<D>& change);

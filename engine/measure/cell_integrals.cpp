@@ -69,55 +69,60 @@ void CellIntegrals<D>::spread(const Vec<D>& from, const Vec<D>& along, Visit&& v
 // velocity changes uniformly by `change` and is `v` half-way. The mean of v_k v_l then is v_k v_l +
 // change_k change_l / 12; products of three factors follow in the same way.
 template <int D>
-typename CellIntegrals<D>::Rates CellIntegrals<D>::rates_of(const Vec<D>& v, const Vec<D>& change,
+typename CellIntegrals<D>::Rates CellIntegrals<D>::rates_of(const Grain& grain, const Vec<D>& v,
+                                                            const Vec<D>& change,
                                                             const Spin<D>& spin) const {
   const MomentLayout<D>& at = layout_;
   Rates rates;
+  const double m = grain.mass;
   rates[at.count] = 1.0;
-  if (at.velocity >= 0) {
-    for (int k = 0; k < D; ++k) rates[at.velocity + k] = v[k];
+  if (at.mass != at.count) rates[at.mass] = m;
+  if (at.momentum >= 0) {
+    for (int k = 0; k < D; ++k) rates[at.momentum + k] = m * v[k];
   }
   if (at.squares >= 0) {
     for (int k = 0; k < D; ++k) {
-      rates[at.squares + k] = v[k] * v[k] + change[k] * change[k] / 12.0;
+      rates[at.squares + k] = m * (v[k] * v[k] + change[k] * change[k] / 12.0);
     }
   }
   if (at.shears >= 0) {
     int place = at.shears;
     for (int k = 0; k < D; ++k) {
-      for (int l = k + 1; l < D; ++l) rates[place++] = v[k] * v[l] + change[k] * change[l] / 12.0;
+      for (int l = k + 1; l < D; ++l) {
+        rates[place++] = m * (v[k] * v[l] + change[k] * change[l] / 12.0);
+      }
     }
   }
   if (at.spin >= 0) {
     for (int k = 0; k < kSpinSize<D>; ++k) rates[at.spin + k] = spin[k];
   }
-  const Model<D>& model = simulation_.model();
-  const double spin_energy = 0.5 * model.grain().moment_of_inertia() * spin.squaredNorm();
+  const double spin_energy = 0.5 * grain.moment_of_inertia() * spin.squaredNorm();
   if (at.spin_energy >= 0) rates[at.spin_energy] = spin_energy;
   if (at.energy_flux >= 0) {
-    const double energy = 0.5 * v.squaredNorm() + change.squaredNorm() / 24.0 + spin_energy;
-    const double mixed = v.dot(change) / 12.0;
+    const double energy = m * (0.5 * v.squaredNorm() + change.squaredNorm() / 24.0) + spin_energy;
+    const double mixed = m * v.dot(change) / 12.0;
     for (int k = 0; k < D; ++k) rates[at.energy_flux + k] = energy * v[k] + mixed * change[k];
   }
   return rates;
 }
 
 template <int D>
-void CellIntegrals<D>::add_flight(const Flight<D>& flight, const Spin<D>& spin, double end) {
+void CellIntegrals<D>::add_flight(const Grain& grain, const Flight<D>& flight, const Spin<D>& spin,
+                                  double end) {
   const Vec<D>& gravity = simulation_.model().gravity;
   const double begin = std::max(flight.time, window_start_);
   const double spent = end - begin;
   if (!(spent > 0.0)) return;
-  if (simulation_.model().has_gravity()) return add_fall(flight, spin, begin, end);
-  const Rates rates = rates_of(flight.v, Vec<D>::Zero(), spin);
+  if (simulation_.model().has_gravity()) return add_fall(grain, flight, spin, begin, end);
+  const Rates rates = rates_of(grain, flight.v, Vec<D>::Zero(), spin);
   grid_.cut(flight.at(begin, gravity), flight.v * spent, [&](std::size_t cell, double share) {
     add(cell, 0, layout_.kinetic, rates.data(), share * spent);
   });
 }
 
 template <int D>
-void CellIntegrals<D>::add_fall(const Flight<D>& flight, const Spin<D>& spin, double begin,
-                                double end) {
+void CellIntegrals<D>::add_fall(const Grain& grain, const Flight<D>& flight, const Spin<D>& spin,
+                                double begin, double end) {
   const Vec<D>& gravity = simulation_.model().gravity;
   auto cell = grid_.cell_at(flight.at(begin, gravity));
   grid_.walk(
@@ -125,7 +130,7 @@ void CellIntegrals<D>::add_fall(const Flight<D>& flight, const Spin<D>& spin, do
       [&](const auto& cell, double from, double until) {
         const double spent = until - from;
         const Vec<D> v = flight.velocity_at(from + 0.5 * spent, gravity);
-        const Rates rates = rates_of(v, spent * gravity, spin);
+        const Rates rates = rates_of(grain, v, spent * gravity, spin);
         add(grid_.index_of(cell), 0, layout_.kinetic, rates.data(), spent);
       },
       [](const auto&, double, int, int) {});
@@ -133,7 +138,8 @@ void CellIntegrals<D>::add_fall(const Flight<D>& flight, const Spin<D>& spin, do
 
 template <int D>
 void CellIntegrals<D>::end_flight(const ParticleChange<D>& particle, double time) {
-  if (estimator_ == Estimator::Exact) add_flight(particle.before, particle.spin, time);
+  if (estimator_ == Estimator::Exact)
+    add_flight(particle.grain, particle.before, particle.spin, time);
 }
 
 // Transfer of momentum and energy along a branch vector (theory 8.4, 8.7).
@@ -186,8 +192,7 @@ void CellIntegrals<D>::on_wall(const WallCollision<D>& collision) {
   const ParticleChange<D>& particle = collision.particle;
   end_flight(particle, collision.time);
   Vec<D> branch = Vec<D>::Zero();
-  branch[collision.side / 2] =
-      0.5 * simulation_.model().diameter * Boundary<D>::inward(collision.side);
+  branch[collision.side / 2] = particle.grain.radius * Boundary<D>::inward(collision.side);
   add_transfer(particle.position - branch, branch, particle.gain.momentum, particle.energy());
 }
 
@@ -209,9 +214,9 @@ void CellIntegrals<D>::on_laws() {
 template <int D>
 void CellIntegrals<D>::sample() {
   const State<D> state = simulation_.state();
-  for (std::size_t i = 0; i < state.positions.size(); ++i) {
+  for (std::uint32_t i = 0; i < state.positions.size(); ++i) {
     const Spin<D> spin = state.spins.empty() ? Spin<D>(Spin<D>::Zero()) : state.spins[i];
-    const Rates rates = rates_of(state.velocities[i], Vec<D>::Zero(), spin);
+    const Rates rates = rates_of(simulation_.grain(i), state.velocities[i], Vec<D>::Zero(), spin);
     spread(state.positions[i], [&](std::size_t cell, double weight) {
       add(cell, 0, layout_.kinetic, rates.data(), weight);
     });
@@ -225,8 +230,8 @@ CellSums CellIntegrals<D>::close_window() {
   const double span = now - window_start_;
   if (estimator_ == Estimator::Exact) {
     const LargeArray<Spin<D>>& spins = simulation_.spins();
-    for (std::size_t i = 0; i < simulation_.particles().size(); ++i) {
-      add_flight(simulation_.particles()[i].flight,
+    for (std::uint32_t i = 0; i < simulation_.particles().size(); ++i) {
+      add_flight(simulation_.grain(i), simulation_.particles()[i].flight,
                  spins.empty() ? Spin<D>(Spin<D>::Zero()) : spins[i], now);
     }
     sums_.kinetic_weight = span;

@@ -90,11 +90,13 @@ class CellIntegrals : public Observer<D> {
 
  private:
   /// Kinetic sums of one particle, per time.
-  using Rates = std::array<double, 2 + 3 * D + D*(D - 1) / 2 + kSpinSize<D>>;
+  using Rates = std::array<double, 3 + 3 * D + D*(D - 1) / 2 + kSpinSize<D>>;
 
-  Rates rates_of(const Vec<D>& v, const Vec<D>& change, const Spin<D>& spin) const;
-  void add_flight(const Flight<D>& flight, const Spin<D>& spin, double end);
-  void add_fall(const Flight<D>& flight, const Spin<D>& spin, double begin, double end);
+  Rates rates_of(const Grain& grain, const Vec<D>& v, const Vec<D>& change,
+                 const Spin<D>& spin) const;
+  void add_flight(const Grain& grain, const Flight<D>& flight, const Spin<D>& spin, double end);
+  void add_fall(const Grain& grain, const Flight<D>& flight, const Spin<D>& spin, double begin,
+                double end);
   void end_flight(const ParticleChange<D>& particle, double time);
   void add_transfer(const Vec<D>& from, const Vec<D>& branch, const Vec<D>& momentum,
                     double energy);

@@ -19,22 +19,23 @@ bool visited(const Cell<D, S>& cell) {
   return value_of(cell.density) > kRounding;
 }
 
-// V = p/(m rho); 0 without particles.
+// V = p/rho_m, the velocity of the centre of mass; 0 without particles.
 template <int D, class S>
 S velocity(const Cell<D, S>& cell, int k) {
-  return visited(cell) ? cell.momentum[k] / cell.density : S(0.0);
+  return visited(cell) ? cell.momentum[k] / cell.mass_density : S(0.0);
 }
 
-// (theory 8.2): rho T_k/2 = E_k - m rho V_k^2/2.
+// (theory 8.2; mixtures 4): rho T_k/2 = E_k - rho_m V_k^2/2.
 template <int D, class S>
 S temperature(const Cell<D, S>& cell, int k) {
-  return cell.momentum_flux[k][k] / cell.density - velocity(cell, k) * velocity(cell, k);
+  const S mass = cell.mass_density / cell.density;  // mean
+  return cell.momentum_flux[k][k] / cell.density - mass * velocity(cell, k) * velocity(cell, k);
 }
 
-// (theory 8.3): -[sum m v_k v_l Phi - m rho V_k V_l].
+// (theory 8.3): -[sum m v_k v_l Phi - rho_m V_k V_l].
 template <int D, class S>
 S kinetic_stress(const Cell<D, S>& cell, int k, int l) {
-  return cell.density * velocity(cell, k) * velocity(cell, l) - cell.momentum_flux[k][l];
+  return cell.mass_density * velocity(cell, k) * velocity(cell, l) - cell.momentum_flux[k][l];
 }
 
 // (theory 8.4)
@@ -105,24 +106,24 @@ template <int D, class S>
 constexpr std::array<Derivation<D, S>, kQuantities.size()> kDerivations = {{
     {Quantity::Density, 0, 0,
      [](Field, const Cell<D, S>& cell) { return visited(cell) ? cell.density : S(0.0); }},
-    {Quantity::Velocity, sum::kVelocity, 0,
+    {Quantity::Velocity, sum::kMomentum, 0,
      [](Field field, const Cell<D, S>& cell) {
        return of_visitors(cell, velocity(cell, field.i));
      }},
-    {Quantity::Temperature, sum::kVelocity | sum::kSquares, 0,
+    {Quantity::Temperature, sum::kMomentum | sum::kSquares, 0,
      [](Field field, const Cell<D, S>& cell) {
        return of_visitors(
            cell, field.i == Field::kNone ? mean_temperature(cell) : temperature(cell, field.i));
      }},
-    {Quantity::Stress, sum::kVelocity | sum::kSquares | sum::kShears, sum::kTransfer,
+    {Quantity::Stress, sum::kMomentum | sum::kSquares | sum::kShears, sum::kTransfer,
      [](Field field, const Cell<D, S>& cell) {
        return part_of(field.part, cell, kinetic_stress(cell, field.i, field.j),
                       collisional_stress(cell, field.i, field.j));
      }},
     // The expanded (theory 8.8) contains the energy and every component of the kinetic stress.
     {Quantity::HeatFlux,
-     sum::kVelocity | sum::kSquares | sum::kShears | sum::kEnergyFlux | sum::kSpinEnergy,
-     sum::kVelocity | sum::kTransfer | sum::kEnergyTransfer,
+     sum::kMomentum | sum::kSquares | sum::kShears | sum::kEnergyFlux | sum::kSpinEnergy,
+     sum::kMomentum | sum::kTransfer | sum::kEnergyTransfer,
      [](Field field, const Cell<D, S>& cell) {
        return part_of(field.part, cell, kinetic_heat_flux(cell, field.i),
                       collisional_heat_flux(cell, field.i));
@@ -163,12 +164,13 @@ CellAverages<D, S> averages_of(const MomentLayout<D>& layout, const S* row) {
   CellAverages<D, S> cell;
   const auto read = [&](int place, int number) { return place < 0 ? S(0.0) : row[place + number]; };
   cell.density = row[layout.count];
+  cell.mass_density = row[layout.mass];
   for (int k = 0; k < kSpinSize<D>; ++k) cell.spin[k] = read(layout.spin, k);
   cell.spin_energy = read(layout.spin_energy, 0);
   cell.dissipation = read(layout.dissipation, 0);
   int shear = 0;
   for (int k = 0; k < D; ++k) {
-    cell.momentum[k] = read(layout.velocity, k);
+    cell.momentum[k] = read(layout.momentum, k);
     cell.energy_flux[k] = read(layout.energy_flux, k);
     cell.energy_transfer[k] = read(layout.energy_transfer, k);
     cell.momentum_flux[k][k] = read(layout.squares, k);

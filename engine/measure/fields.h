@@ -16,17 +16,18 @@ struct CellAverages {
   using Vector = std::array<S, D>;
   using Tensor = std::array<std::array<S, D>, D>;  ///< [k][l]
 
-  S density{};                         ///< rho
-  Vector momentum{};                   ///< sum v_k
-  Tensor momentum_flux{};              ///< sum v_k v_l
-  Vector energy_flux{};                ///< sum (v^2 + I omega^2)/2 v_k
+  S density{};                         ///< rho, of numbers
+  S mass_density{};                    ///< sum m; of particles that are alike rho
+  Vector momentum{};                   ///< sum m v_k
+  Tensor momentum_flux{};              ///< sum m v_k v_l
+  Vector energy_flux{};                ///< sum (m v^2 + I omega^2)/2 v_k
   std::array<S, kSpinSize<D>> spin{};  ///< sum omega
   S spin_energy{};                     ///< sum I omega^2 / 2
   Tensor transfer{};                   ///< of momentum l along k in collisions, per time
   Vector energy_transfer{};  ///< energy transfer of collisions, sum of branch vector times energy
   S dissipation{};           ///< <= 0, energy gain in collisions between particles, per time
 
-  /// E = sum (v^2 + I omega^2)/2.
+  /// E = sum (m v^2 + I omega^2)/2.
   S energy() const {
     S twice = 2.0 * spin_energy;
     for (int k = 0; k < D; ++k) twice = twice + momentum_flux[k][k];

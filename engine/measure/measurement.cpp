@@ -256,10 +256,11 @@ void Measurement<D>::open_cells() {
   if (measure_.fields.empty()) return;
   Coarsening coarsening{measure_.estimator, {}};
   if (measure_.kernel == Kernel::Gaussian) coarsening.gaussian_width = measure_.width;
-  of_cells_.emplace(
-      simulation_,
-      cells_.emplace(simulation_, cells,
-                     moment_layout<D>(measure_.fields, simulation_.model().spins), coarsening));
+  of_cells_.emplace(simulation_,
+                    cells_.emplace(simulation_, cells,
+                                   moment_layout<D>(measure_.fields, simulation_.model().spins,
+                                                    simulation_.is_mixture()),
+                                   coarsening));
 }
 
 template <int D>

@@ -5,7 +5,7 @@
 namespace clatter {
 
 template <int D>
-MomentLayout<D> moment_layout(std::span<const Field> fields, bool spins) {
+MomentLayout<D> moment_layout(std::span<const Field> fields, bool spins, bool mixed) {
   Needs needs = 0;
   for (const Field field : fields) needs |= needs_of(field);
   MomentLayout<D> layout;
@@ -14,7 +14,8 @@ MomentLayout<D> moment_layout(std::span<const Field> fields, bool spins) {
     place = layout.size;
     layout.size += numbers;
   };
-  keep(sum::kVelocity, layout.velocity, D);
+  if (mixed) layout.mass = layout.size++;
+  keep(sum::kMomentum, layout.momentum, D);
   keep(sum::kSquares, layout.squares, D);
   keep(sum::kShears, layout.shears, D * (D - 1) / 2);
   keep(sum::kEnergyFlux, layout.energy_flux, D);
@@ -28,7 +29,7 @@ MomentLayout<D> moment_layout(std::span<const Field> fields, bool spins) {
   return layout;
 }
 
-template MomentLayout<2> moment_layout<2>(std::span<const Field>, bool);
-template MomentLayout<3> moment_layout<3>(std::span<const Field>, bool);
+template MomentLayout<2> moment_layout<2>(std::span<const Field>, bool, bool);
+template MomentLayout<3> moment_layout<3>(std::span<const Field>, bool, bool);
 
 }  // namespace clatter

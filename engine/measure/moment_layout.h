@@ -12,7 +12,7 @@ using Needs = unsigned;
 
 /// The flags of the sums, see the members of MomentLayout.
 namespace sum {
-inline constexpr Needs kVelocity = 1, kSquares = 2, kShears = 4, kEnergyFlux = 8, kSpin = 16,
+inline constexpr Needs kMomentum = 1, kSquares = 2, kShears = 4, kEnergyFlux = 8, kSpin = 16,
                        kSpinEnergy = 32, kTransfer = 64, kEnergyTransfer = 128, kDissipation = 256;
 }  // namespace sum
 
@@ -24,10 +24,11 @@ struct MomentLayout {
   static constexpr int kAbsent = -1;
 
   int count = 0;                  ///< 1: the number of particles, always kept
-  int velocity = kAbsent;         ///< D: sum v_k
-  int squares = kAbsent;          ///< D: sum v_k^2
-  int shears = kAbsent;           ///< D(D-1)/2: sum v_k v_l, k < l
-  int energy_flux = kAbsent;      ///< D: sum (v^2 + I omega^2)/2 v_k
+  int mass = 0;                   ///< 1: sum m; of particles that are alike the count
+  int momentum = kAbsent;         ///< D: sum m v_k
+  int squares = kAbsent;          ///< D: sum m v_k^2
+  int shears = kAbsent;           ///< D(D-1)/2: sum m v_k v_l, k < l
+  int energy_flux = kAbsent;      ///< D: sum (m v^2 + I omega^2)/2 v_k
   int spin = kAbsent;             ///< of Spin<D>: sum omega
   int spin_energy = kAbsent;      ///< 1: sum I omega^2 / 2
   int kinetic = 1;                ///< end of the kinetic sums
@@ -39,10 +40,11 @@ struct MomentLayout {
 };
 
 /// The layout for these fields. `spins`: whether the particles spin, and so carry energy of spin.
+/// `mixed`: whether particles have their own masses.
 template <int D>
-MomentLayout<D> moment_layout(std::span<const Field> fields, bool spins);
+MomentLayout<D> moment_layout(std::span<const Field> fields, bool spins, bool mixed = false);
 
-extern template MomentLayout<2> moment_layout<2>(std::span<const Field>, bool);
-extern template MomentLayout<3> moment_layout<3>(std::span<const Field>, bool);
+extern template MomentLayout<2> moment_layout<2>(std::span<const Field>, bool, bool);
+extern template MomentLayout<3> moment_layout<3>(std::span<const Field>, bool, bool);
 
 }  // namespace clatter

@@ -18,51 +18,49 @@ Totals<D>::Totals(const Simulation<D>& simulation)
 template <int D>
 double Totals<D>::energy_of_starts() const {
   double twice = 0.0;
-  for (const Particle<D>& particle : simulation_.particles())
-    twice += particle.flight.v.squaredNorm();
+  for (std::uint32_t i = 0; i < simulation_.particles().size(); ++i) {
+    twice += simulation_.grain(i).mass * simulation_.particles()[i].flight.v.squaredNorm();
+  }
   return 0.5 * twice + simulation_.spin_energy();
 }
 
-template <int D>
-static double inertia_of(const Model<D>& model) {
-  return model.grain().moment_of_inertia();
-}
-
-template <int D>
-double Totals<D>::inertia() const {
-  return inertia_of(simulation_.model());
-}
-
-// Under another moment of inertia the same spins have another energy.
+// Under another inertia the same spins have another energy. The inertia of a mixture does not
+// change.
 template <int D>
 void Totals<D>::change_inertia(double before, double after) {
-  energy_at_start_ += 0.5 * (after - before) * spin_squares_;
+  if (before == after) return;
+  const double gained = (after - before) / before * spin_squares_;
+  energy_at_start_ += 0.5 * gained;
+  spin_squares_ += gained;
 }
 
 template <int D>
 void Totals<D>::take_stock() {
+  mass_ = 0.0;
   squares_.setZero();
   momentum_.setZero();
-  spin_squares_ = 0.0;
-  for (const Particle<D>& particle : simulation_.particles()) {
-    const Vec<D> v = particle.flight.velocity_at(integrated_to_, simulation_.model().gravity);
-    squares_ += v.cwiseAbs2();
-    momentum_ += v;
+  spin_squares_ = 2.0 * simulation_.spin_energy();
+  for (std::uint32_t i = 0; i < simulation_.particles().size(); ++i) {
+    const double m = simulation_.grain(i).mass;
+    const Flight<D>& flight = simulation_.particles()[i].flight;
+    const Vec<D> v = flight.velocity_at(integrated_to_, simulation_.model().gravity);
+    mass_ += m;
+    squares_ += m * v.cwiseAbs2();
+    momentum_ += m * v;
   }
-  for (const Spin<D>& spin : simulation_.spins()) spin_squares_ += spin.squaredNorm();
 }
 
-// Between events sum v_k^2 is a parabola in time, because all particles have the same acceleration.
+// Between events sum m v_k^2 is a parabola in time, because all particles have the same
+// acceleration.
 template <int D>
 void Totals<D>::integrate_to(double time) {
   const double dt = time - integrated_to_;
-  const double count = static_cast<double>(simulation_.particles().size());
   const Vec<D>& gravity = simulation_.model().gravity;
   const Vec<D> slope = gravity.cwiseProduct(momentum_);
-  const Vec<D> curvature = count * gravity.cwiseAbs2();
+  const Vec<D> curvature = mass_ * gravity.cwiseAbs2();
   integral_ += dt * (squares_ + dt * (slope + dt / 3.0 * curvature));
   squares_ += dt * (2.0 * slope + dt * curvature);
-  momentum_ += dt * count * gravity;
+  momentum_ += dt * mass_ * gravity;
   spin_integral_ += dt * spin_squares_;
   integrated_to_ = time;
 }
@@ -73,10 +71,10 @@ void Totals<D>::book(double gained) {
   booked_sizes_ += std::fabs(gained);
 }
 
-// The work of gravity on a flight over a distance.
+// The work of gravity on the flight of a mass over a distance.
 template <int D>
-void Totals<D>::book_work(const Vec<D>& distance) {
-  const double work = simulation_.model().gravity.dot(distance);
+void Totals<D>::book_work(double mass, const Vec<D>& distance) {
+  const double work = mass * simulation_.model().gravity.dot(distance);
   window_.gravity_in += work;
   book(work);
 }
@@ -86,19 +84,19 @@ template <int D>
 void Totals<D>::change(const ParticleChange<D>& particle, double time) {
   integrate_to(time);
   const Impulse<D>& gain = particle.gain;
-  squares_ += gain.momentum.cwiseProduct(gain.momentum + 2.0 * particle.velocity);
+  squares_ +=
+      gain.momentum.cwiseProduct(gain.momentum / particle.grain.mass + 2.0 * particle.velocity);
   momentum_ += gain.momentum;
-  spin_squares_ += gain.spin.dot(gain.spin + 2.0 * particle.spin);
-  book_work(particle.position - particle.before.r);
+  spin_squares_ +=
+      particle.grain.moment_of_inertia() * gain.spin.dot(gain.spin + 2.0 * particle.spin);
+  book_work(particle.grain.mass, particle.position - particle.before.r);
 }
 
 template <int D>
 void Totals<D>::before_laws(const Model<D>& next) {
   const Model<D>& present = simulation_.model();
   integrate_to(simulation_.base_time());
-  change_inertia(inertia_of(present), inertia_of(next));
-  // The integral is multiplied by the inertia at the end of the window.
-  spin_integral_ *= inertia_of(present) / inertia_of(next);
+  change_inertia(present.inertia, next.inertia);
   if (!keeps_flights<D>(present, next)) end_flights();
 }
 
@@ -107,8 +105,9 @@ template <int D>
 void Totals<D>::end_flights() {
   const Vec<D>& gravity = simulation_.model().gravity;
   const double now = simulation_.base_time();
-  for (const Particle<D>& particle : simulation_.particles()) {
-    book_work(particle.flight.at(now, gravity) - particle.flight.r);
+  for (std::uint32_t i = 0; i < simulation_.particles().size(); ++i) {
+    const Flight<D>& flight = simulation_.particles()[i].flight;
+    book_work(simulation_.grain(i).mass, flight.at(now, gravity) - flight.r);
   }
 }
 
@@ -156,15 +155,16 @@ WindowTotals<D> Totals<D>::close_window() {
   integrate_to(now);
   const double count = static_cast<double>(simulation_.particles().size());
   window_.duration = now - window_start_;
-  for (const Particle<D>& particle : simulation_.particles()) {
-    const Vec<D> squares = particle.flight.velocity_at(now, model.gravity).cwiseAbs2();
+  for (std::uint32_t i = 0; i < simulation_.particles().size(); ++i) {
+    const Flight<D>& flight = simulation_.particles()[i].flight;
+    const Vec<D> squares =
+        simulation_.grain(i).mass * flight.velocity_at(now, model.gravity).cwiseAbs2();
     window_.second_moment += squares / count;
     window_.fourth_moment += squares.cwiseAbs2() / count;
   }
   if (count > 0.0 && window_.duration > 0.0) {
     window_.temperature = integral_ / (window_.duration * count);
-    window_.spin_temperature =
-        inertia() * spin_integral_ / (window_.duration * count * kSpinSize<D>);
+    window_.spin_temperature = spin_integral_ / (window_.duration * count * kSpinSize<D>);
   }
   const WindowTotals<D> closed = window_;
   window_ = {};

@@ -13,12 +13,12 @@ namespace clatter {
 template <int D>
 struct WindowTotals {
   double duration = 0.0;
-  Vec<D> temperature = Vec<D>::Zero();       ///< T_k: exact time averages of m <v_k^2>
-  Vec<D> second_moment = Vec<D>::Zero();     ///< <v_k^2> over the particles at the window's end
-  Vec<D> fourth_moment = Vec<D>::Zero();     ///< <v_k^4> at the window's end
+  Vec<D> temperature = Vec<D>::Zero();       ///< T_k: exact time averages of <m v_k^2>
+  Vec<D> second_moment = Vec<D>::Zero();     ///< <m v_k^2> over the particles at the window's end
+  Vec<D> fourth_moment = Vec<D>::Zero();     ///< <(m v_k^2)^2> at the window's end
   double collisions = 0.0;                   ///< between particles
   double elasticised = 0.0;                  ///< of these, made elastic by the TC model
-  double spin_temperature = 0.0;             ///< exact time average of I <omega^2> per component
+  double spin_temperature = 0.0;             ///< exact time average of <I omega^2> per component
   double walls_in = 0.0;                     ///< energy input of the walls
   double bulk_in = 0.0;                      ///< energy input of kicks
   double nudges_in = 0.0;                    ///< energy input of nudges and puffs
@@ -68,20 +68,20 @@ class Totals : public Observer<D> {
   void change(const ParticleChange<D>& particle, double time);
   void integrate_to(double time);
   double energy_of_starts() const;
-  double inertia() const;
   void take_stock();
   void end_flights();
   void change_inertia(double before, double after);
   void book(double gained);
-  void book_work(const Vec<D>& distance);
+  void book_work(double mass, const Vec<D>& distance);
 
   const Simulation<D>& simulation_;
   double energy_at_start_;
   double booked_ = 0.0;               // energy gain since the start, by events and ended flights
   double booked_sizes_ = 0.0;         // sum of |bookings|
-  Vec<D> squares_ = Vec<D>::Zero();   // sum of v_k^2 at integrated_to_
-  Vec<D> momentum_ = Vec<D>::Zero();  // sum of v_k at integrated_to_
-  double spin_squares_ = 0.0;         // sum of omega^2
+  double mass_ = 0.0;                 // of all particles
+  Vec<D> squares_ = Vec<D>::Zero();   // sum of m v_k^2 at integrated_to_
+  Vec<D> momentum_ = Vec<D>::Zero();  // sum of m v_k at integrated_to_
+  double spin_squares_ = 0.0;         // sum of I omega^2
   double integrated_to_;              // upper limit of the integrals, on the base
   double window_start_;
   Vec<D> integral_ = Vec<D>::Zero();  // of squares_ over time, in this window
@@ -92,12 +92,13 @@ class Totals : public Observer<D> {
 template <int D>
 template <class Archive>
 void Totals<D>::visit(Archive& io) {
-  auto& [simulation, energy_at_start, booked, booked_sizes, squares, momentum, spin_squares,
+  auto& [simulation, energy_at_start, booked, booked_sizes, mass, squares, momentum, spin_squares,
          integrated_to, window_start, integral, spin_integral, window] = *this;
-  double saved_inertia = inertia();
-  io(saved_inertia, energy_at_start, booked, booked_sizes, squares, momentum, spin_squares,
+  const double inertia = simulation.model().inertia;
+  double saved_inertia = inertia;
+  io(saved_inertia, energy_at_start, booked, booked_sizes, mass, squares, momentum, spin_squares,
      integrated_to, window_start, integral, spin_integral, window);
-  change_inertia(saved_inertia, inertia());
+  change_inertia(saved_inertia, inertia);
 }
 
 extern template class Totals<2>;

@@ -37,7 +37,7 @@ std::optional<typename LiveField<D>::Averages> LiveField<D>::averages_for(
   const std::vector<Field> fields = averages_in(view, D);
   if (fields.empty()) return std::nullopt;
   const Model<D>& model = simulation.model();
-  const MomentLayout<D> layout = moment_layout<D>(fields, model.spins);
+  const MomentLayout<D> layout = moment_layout<D>(fields, model.spins, simulation.is_mixture());
   return Averages{
       CellIntegrals<D>(simulation, cells_of_one_diameter(model), layout, {view.estimator, {}}), {}};
 }

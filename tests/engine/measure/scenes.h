@@ -5,6 +5,8 @@
 #include "engine/dynamics/simulation.h"
 #include "engine/initial/start_state.h"
 #include "engine/run/scheduled_run.h"
+#include "tests/engine/support/gas.h"
+#include "tests/engine/support/models.h"
 #include "tests/support/scenes.h"
 
 namespace clatter::testing {
@@ -38,6 +40,14 @@ inline std::unique_ptr<Simulation<2>> lone_particle(const Scene& scene, const Ve
   return std::make_unique<Simulation<2>>(model_of<2>(scene, 1), State<2>{{r}, {v}});
 }
 
+/// The run of a scene, or of three species in its place.
+inline std::unique_ptr<Simulation<2>> run_of(const Scene& scene, std::uint64_t seed, bool mixes) {
+  const Model<2> model = model_of<2>(scene, seed);
+  const State<2> start = start_state<2>(scene, seed);
+  return mixes ? std::make_unique<Simulation<2>>(with_species(model), mixed(model, start, 1.5))
+               : std::make_unique<Simulation<2>>(model, start);
+}
+
 /// Total momentum.
 inline Vec2 momentum(const Simulation<2>& simulation) {
   Vec2 sum = Vec2::Zero();
@@ -45,10 +55,12 @@ inline Vec2 momentum(const Simulation<2>& simulation) {
   return sum;
 }
 
-/// Sum of v_k^2 over the particles.
+/// Sum of m v_k^2 over the particles.
 inline Vec2 squares(const Simulation<2>& simulation) {
   Vec2 sum = Vec2::Zero();
-  for (const Particle<2>& particle : simulation.particles()) sum += particle.flight.v.cwiseAbs2();
+  for (std::uint32_t i = 0; i < simulation.particles().size(); ++i) {
+    sum += simulation.grain(i).mass * simulation.particles()[i].flight.v.cwiseAbs2();
+  }
   return sum;
 }
 

@@ -77,7 +77,7 @@ inline Grid grid_of(const CellSums& sums, const MomentLayout<2>& layout) {
     cell.spin_energy = read(layout.spin_energy, 0);
     cell.dissipation = read(layout.dissipation, 0);
     for (int k = 0; k < 2; ++k) {
-      cell.velocity[k] = read(layout.velocity, k);
+      cell.velocity[k] = read(layout.momentum, k);
       cell.energy_flux[k] = read(layout.energy_flux, k);
       cell.energy_transfer[k] = read(layout.energy_transfer, k);
       for (int l = 0; l < 2; ++l) {

@@ -86,8 +86,8 @@ struct Watched {
 // than a particle. 1e-15 is typical. 1e-13 occurs in the shortest window, where gravity or a kick
 // changes velocities by 1e-3.
 template <int D>
-void check_closure(const std::string& name, const Model<D>& model, int count = 30,
-                   double start_time = 0.0) {
+void check_closure(const std::string& name, const Model<D>& model, const State<D>& start,
+                   double start_time) {
   CAPTURE(D);
   CAPTURE(name);
   const IntVec<D> halves = (2.0 * model.box).array().round().matrix().template cast<int>();
@@ -101,7 +101,7 @@ void check_closure(const std::string& name, const Model<D>& model, int count = 3
   for (const IntVec<D>& cells : grids) {
     CAPTURE(cells.x());
     CAPTURE(cells.y());
-    Watched<D> run(model, clear_gas(model, count, 84), cells, start_time);
+    Watched<D> run(model, start, cells, start_time);
     double time = start_time;
     for (const double duration : {1.0, 0.01, 0.3, 2.5, 0.3}) {
       time += duration;
@@ -117,6 +117,12 @@ void check_closure(const std::string& name, const Model<D>& model, int count = 3
     CHECK((run.simulation.counts().kicks > 0) == model.bulk_drive.has_value());
     CHECK((run.simulation.counts().elasticised > 0) == model.contact_time.has_value());
   }
+}
+
+template <int D>
+void check_closure(const std::string& name, const Model<D>& model, int count = 30,
+                   double start_time = 0.0) {
+  check_closure(name, model, clear_gas(model, count, 84), start_time);
 }
 
 }  // namespace
@@ -209,6 +215,21 @@ TEST_CASE_TEMPLATE("Balance: closes where particles touch at images that are not
   check_closure("rough, driven",
                 rough(inelastic(with_walls(narrow<D>(1.2), 0, kRoughDriven), 0.9), 0.3, 0.7), 6);
   check_closure("falling round", falling(inelastic(narrow<D>(1.2), 0.9), vector<D>(0.2, 1.0)), 6);
+}
+
+// The masses are powers of two and 3, so that the sums of masses are exact.
+TEST_CASE_TEMPLATE("Balance: closes for mixtures", Dimension, Plane, Space) {
+  constexpr int D = Dimension::value;
+  const auto check = [](const std::string& name, const Model<D>& model) {
+    check_closure(name, with_species(model), mixed_gas(model, 20, 85, 2.0), 0.0);
+  };
+  check("periodic", inelastic(box<D>(), 0.9));
+  check("everything",
+        with_contact_time(
+            kicked(falling(rough(inelastic(walled<D>(kRoughSinusoidal, kThermal), 0.8), 0.4, 0.6),
+                           vector<D>(0.2, -0.5, 0.3)),
+                   0.17, 0.1),
+            0.01));
 }
 
 TEST_CASE_TEMPLATE("Balance: closes with everything at once, at time 0 and at 1e9", Dimension,

@@ -7,12 +7,13 @@
 #include "engine/measure/fields.h"
 #include "tests/engine/measure/scenes.h"
 #include "tests/engine/measure/sums.h"
+#include "tests/engine/support/gas.h"
 #include "tests/support/dimensions.h"
 
 // The first-moment identities (theory 9.6, 9.7) connect the reported stress, heat flux and
 // dissipation with the states of the particles at the two ends of a window. A wrong sign, factor or
 // wall branch in one of them violates an identity. Along each walled axis k
-//   [sum r_k v_l] = Dt int (rho V_k V_l - sigma_kl) dA + sum_walls r_w,k dp_l + sources
+//   [sum m r_k v_l] = Dt int (rho_m V_k V_l - sigma_kl) dA + sum_walls r_w,k dp_l + sources
 //   [sum r_k E]   = Dt int (q + E V - sigma.V)_k dA + sum_coll (dE_1 + dE_2)/2 (r_1 + r_2)_k
 //                   + sum_walls r_w,k dE + sources
 // and [sum E] = Dt int zeta dA + walls + sources.
@@ -33,6 +34,13 @@ struct Booked {
   }
 };
 
+/// Energy of a spin.
+template <class AnySpin>
+double spin_energy(const Grain& grain, const AnySpin& spin) {
+  const double diameter = 2.0 * grain.radius;
+  return 0.125 * grain.inertia * grain.mass * diameter * diameter * spin.squaredNorm();
+}
+
 /// Contributions of walls, kicks and gravity to the moments, from velocities and not from
 /// ParticleChange::energy.
 template <int D>
@@ -41,19 +49,20 @@ class Sources : public Observer<D> {
   explicit Sources(const Simulation<D>& simulation)
       : simulation_(simulation), begin_(simulation.base_time()) {}
 
-  Booked momentum[D][D];    ///< [k][l] of sum r_k v_l
+  Booked momentum[D][D];    ///< [k][l] of sum m r_k v_l
   Booked energy_moment[D];  ///< of sum r_k E
   Booked energy;            ///< of sum E, without the dissipation in collisions of particles
 
   void on_collision(const PairCollision<D>& c) override {
-    for (const ParticleChange<D>& particle : c.particles) fall(particle.before, c.time);
+    for (const ParticleChange<D>& particle : c.particles)
+      fall(particle.grain, particle.before, c.time);
     const double gained = energy_gain(c.particles[0]) + energy_gain(c.particles[1]);
     const Vec<D> ends = 2.0 * c.particles[0].position - c.separation;
     for (int k = 0; k < D; ++k) energy_moment[k].add(0.5 * gained * ends[k]);
   }
 
   void on_wall(const WallCollision<D>& c) override {
-    fall(c.particle.before, c.time);
+    fall(c.particle.grain, c.particle.before, c.time);
     // The present position of the wall's face.
     const double inset = simulation_.wall(c.side).displacement;
     const int axis = c.side / 2;
@@ -63,24 +72,25 @@ class Sources : public Observer<D> {
   }
 
   void on_kick(const Kick<D>& kick) override {
-    fall(kick.particle.before, kick.time);
+    fall(kick.particle.grain, kick.particle.before, kick.time);
     add(kick.particle, kick.particle.position);
   }
 
   void on_base_moved(double shift) override { begin_ -= shift; }
 
   void close() {
-    for (const Particle<D>& particle : simulation_.particles())
-      fall(particle.flight, simulation_.base_time());
+    for (std::uint32_t i = 0; i < simulation_.particles().size(); ++i) {
+      fall(simulation_.grain(i), simulation_.particles()[i].flight, simulation_.base_time());
+    }
   }
 
  private:
   double energy_gain(const ParticleChange<D>& particle) const {
-    const double inertia = 0.25 * simulation_.model().inertia;
-    const Vec<D> after = particle.velocity + particle.gain.momentum;
+    const double m = particle.grain.mass;
+    const Vec<D> after = particle.velocity + particle.gain.momentum / m;
     const Spin<D> w = particle.spin + particle.gain.spin;
-    return 0.5 * (after.squaredNorm() - particle.velocity.squaredNorm()) +
-           0.5 * inertia * (w.squaredNorm() - particle.spin.squaredNorm());
+    return 0.5 * m * (after.squaredNorm() - particle.velocity.squaredNorm()) +
+           spin_energy(particle.grain, w) - spin_energy(particle.grain, particle.spin);
   }
 
   void add(const ParticleChange<D>& particle, const Vec<D>& place) {
@@ -93,13 +103,13 @@ class Sources : public Observer<D> {
   }
 
   // Gravity during a flight, by two-point Gauss quadrature: exact for cubics.
-  void fall(const Flight<D>& flight, double end) {
+  void fall(const Grain& grain, const Flight<D>& flight, double end) {
     const Vec<D>& gravity = simulation_.model().gravity;
     const double begin = std::max(begin_, flight.time);
     if (!(end > begin) || gravity.isZero(0.0)) return;
     for (const double node : {-1.0 / std::sqrt(3.0), 1.0 / std::sqrt(3.0)}) {
       const double time = 0.5 * (begin + end) + 0.5 * node * (end - begin);
-      const double weight = 0.5 * (end - begin);
+      const double weight = 0.5 * grain.mass * (end - begin);
       const Vec<D> r = flight.at(time, gravity);
       const double power = gravity.dot(flight.velocity_at(time, gravity));
       energy.add(weight * power);
@@ -117,17 +127,17 @@ class Sources : public Observer<D> {
 /// The present moments of the particles.
 template <int D>
 struct Moments {
-  Eigen::Matrix<double, D, D> momentum = Eigen::Matrix<double, D, D>::Zero();  ///< sum r_k v_l
+  Eigen::Matrix<double, D, D> momentum = Eigen::Matrix<double, D, D>::Zero();  ///< sum m r_k v_l
   Vec<D> energy_moment = Vec<D>::Zero();                                       ///< sum r_k E
   double energy = 0.0;
 
   explicit Moments(const Simulation<D>& simulation) {
     const State<D> state = simulation.state();
     for (std::size_t i = 0; i < state.positions.size(); ++i) {
-      const double squares = state.spins.empty() ? 0.0 : state.spins[i].squaredNorm();
-      const double e =
-          0.5 * state.velocities[i].squaredNorm() + 0.125 * simulation.model().inertia * squares;
-      momentum += state.positions[i] * state.velocities[i].transpose();
+      const Grain& grain = simulation.grain(static_cast<std::uint32_t>(i));
+      const double spun = state.spins.empty() ? 0.0 : spin_energy(grain, state.spins[i]);
+      const double e = 0.5 * grain.mass * state.velocities[i].squaredNorm() + spun;
+      momentum += grain.mass * state.positions[i] * state.velocities[i].transpose();
       energy_moment += state.positions[i] * e;
       energy += e;
     }
@@ -168,13 +178,13 @@ Reported<D> reported(const CellIntegrals<D>& integrals, const CellSums& sums, bo
       }
     }
     const double spin_energy = spins ? 0.5 * kSpinSize<D> * value(Quantity::SpinTemperature) : 0.0;
-    const double E =
-        density * (0.5 * D * value(Quantity::Temperature) + 0.5 * V.squaredNorm() + spin_energy);
+    const double E = density * (0.5 * D * value(Quantity::Temperature) + spin_energy) +
+                     0.5 * cell.mass_density * V.squaredNorm();
     const Vec<D> flux = q + E * V - sigma * V;
     for (int k = 0; k < D; ++k) {
       result.energy_moment[k].add(measure * flux[k]);
       for (int l = 0; l < D; ++l) {
-        result.momentum[k][l].add(measure * (density * V[k] * V[l] - sigma(k, l)));
+        result.momentum[k][l].add(measure * (cell.mass_density * V[k] * V[l] - sigma(k, l)));
       }
     }
     result.dissipation.add(measure * value(Quantity::Dissipation));
@@ -192,14 +202,14 @@ double residual(double change, std::initializer_list<Booked> terms) {
 }
 
 template <int D>
-void check_identities(const Scene& scene, std::uint64_t seed) {
+void check_identities(const Model<D>& model, const State<D>& start) {
   CAPTURE(D);
   constexpr double kResidual = 1e-10;
-  Simulation<D> simulation(model_of<D>(scene, seed), start_state<D>(scene, seed));
+  Simulation<D> simulation(model, start);
   simulation.run_until(2.345);
   const std::vector<Field> all = all_fields(D);
   CellIntegrals<D> integrals(simulation, IntVec<3>(7, 5, 3).head<D>(),
-                             moment_layout<D>(all, scene.spins()));
+                             moment_layout<D>(all, model.spins, simulation.is_mixture()));
   Sources<D> sources(simulation);
   simulation.add_observer(integrals);
   simulation.add_observer(sources);
@@ -207,11 +217,11 @@ void check_identities(const Scene& scene, std::uint64_t seed) {
   simulation.run_until(22.3);
   const Moments<D> after(simulation);
   sources.close();
-  const Reported<D> fields = reported(integrals, integrals.close_window(), scene.spins());
+  const Reported<D> fields = reported(integrals, integrals.close_window(), model.spins);
   REQUIRE(simulation.counts().pair_collisions > 200);
   CHECK(residual(after.energy - before.energy, {fields.dissipation, sources.energy}) < kResidual);
   for (int k = 0; k < D; ++k) {
-    if (scene.periodic(k)) continue;
+    if (model.periodic(k)) continue;
     CAPTURE(k);
     for (int l = 0; l < D; ++l) {
       CAPTURE(l);
@@ -221,6 +231,17 @@ void check_identities(const Scene& scene, std::uint64_t seed) {
     CHECK(residual(after.energy_moment[k] - before.energy_moment[k],
                    {fields.energy_moment[k], sources.energy_moment[k]}) < kResidual);
   }
+}
+
+// Particles that are alike, and a mixture of three species.
+template <int D>
+void check_identities(const Scene& scene, std::uint64_t seed) {
+  const Model<D> model = model_of<D>(scene, seed);
+  const State<D> start = start_state<D>(scene, seed);
+  check_identities<D>(model, start);
+  Model<D> mixture = with_species(model);
+  mixture.contact_time = 0.01;  // one species may come to rest on a wall
+  check_identities<D>(mixture, mixed(model, start, 1.5));
 }
 
 /// A periodic box.

@@ -17,9 +17,10 @@ struct TimedRun {
 };
 
 /// Runs to each of the ends and closes a window there.
-TimedRun run_in_windows(const Scene& scene, std::uint64_t seed, const std::vector<double>& ends) {
+TimedRun run_in_windows(const Scene& scene, std::uint64_t seed, const std::vector<double>& ends,
+                        bool mixes) {
   TimedRun run;
-  const auto simulation = simulation_of<2>(scene, seed);
+  const auto simulation = run_of(scene, seed, mixes);
   Totals<2> totals(*simulation);
   simulation->add_observer(totals);
   simulation->add_observer(run.events);
@@ -30,8 +31,8 @@ TimedRun run_in_windows(const Scene& scene, std::uint64_t seed, const std::vecto
   return run;
 }
 
-/// Integral of sum v_k^2 from `begin` to `end`, from the states of a second run without observers,
-/// half-way between successive events.
+/// Integral of sum m v_k^2 from `begin` to `end`, from the states of a second run without
+/// observers, half-way between successive events.
 Vec2 brute_force_integral(Simulation<2>& simulation, const std::vector<double>& events,
                           double begin, double end) {
   Vec2 integral = Vec2::Zero();
@@ -53,26 +54,30 @@ Vec2 brute_force_integral(Simulation<2>& simulation, const std::vector<double>& 
 TEST_CASE("Totals: the temperature is the exact time average, across base moves") {
   const Scene scene = rough_mixture(20);
   const std::vector<double> ends = {0.3, 40.0, 40.0001, 300.0};
-  const TimedRun run = run_in_windows(scene, 7, ends);
-  REQUIRE(run.events.base_moves >= 2);  // the first comes after 1024 events
+  for (const bool mixes : {false, true}) {
+    CAPTURE(mixes);
+    const TimedRun run = run_in_windows(scene, 7, ends, mixes);
+    REQUIRE(run.events.base_moves >= 2);  // the first comes after 1024 events
 
-  const auto again = simulation_of<2>(scene, 7);
-  double begin = 0.0;
-  for (std::size_t k = 0; k < ends.size(); ++k) {
-    const Vec2 integral = brute_force_integral(*again, run.events.times, begin, ends[k]);
-    const Vec2 expected = integral / (20.0 * (ends[k] - begin));
-    CAPTURE(k);
-    // Durations and event times have the rounding errors of times about 300.
-    CHECK(run.windows[k].duration == doctest::Approx(ends[k] - begin).epsilon(1e-9));
-    CHECK(run.windows[k].temperature.x() == doctest::Approx(expected.x()).epsilon(1e-9));
-    CHECK(run.windows[k].temperature.y() == doctest::Approx(expected.y()).epsilon(1e-9));
-    begin = ends[k];
+    const auto again = run_of(scene, 7, mixes);
+    double begin = 0.0;
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+      const Vec2 integral = brute_force_integral(*again, run.events.times, begin, ends[k]);
+      const Vec2 expected = integral / (20.0 * (ends[k] - begin));
+      CAPTURE(k);
+      // Durations and event times have the rounding errors of times about 300.
+      CHECK(run.windows[k].duration == doctest::Approx(ends[k] - begin).epsilon(1e-9));
+      CHECK(run.windows[k].temperature.x() == doctest::Approx(expected.x()).epsilon(1e-9));
+      CHECK(run.windows[k].temperature.y() == doctest::Approx(expected.y()).epsilon(1e-9));
+      begin = ends[k];
+    }
   }
 }
 
-TEST_CASE("Totals: the sum of every window equals the change of the energy") {
-  const Scene scene = rough_mixture(30);
-  const auto simulation = simulation_of<2>(scene, 8);
+// The change of the energy of a run must equal the sums of its windows.
+static void check_windows(bool mixes) {
+  CAPTURE(mixes);
+  const auto simulation = run_of(rough_mixture(30), 8, mixes);
   Totals<2> totals(*simulation);
   simulation->add_observer(totals);
   double energy = simulation->kinetic_energy();
@@ -90,6 +95,11 @@ TEST_CASE("Totals: the sum of every window equals the change of the energy") {
     collisions = simulation->counts().pair_collisions;
     CHECK(totals.ledger_residual() < 1e-13);
   }
+}
+
+TEST_CASE("Totals: the sum of every window equals the change of the energy") {
+  check_windows(false);
+  check_windows(true);
 }
 
 TEST_CASE("Totals: the ledger of a gas that cools to nothing stays closed") {

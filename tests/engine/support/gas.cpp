@@ -84,8 +84,7 @@ State<D> clear_gas(const Model<D>& model, int count, std::uint64_t seed) {
 }
 
 template <int D>
-State<D> mixed_gas(const Model<D>& model, int count, std::uint64_t seed, double ratio) {
-  State<D> state = clear_gas(model, count, seed);
+State<D> mixed(const Model<D>& model, State<D> state, double ratio) {
   const double radius = 0.5 * model.diameter;
   const Grain grains[] = {
       {.radius = radius, .mass = 2.0, .inertia = model.inertia, .species = 0},
@@ -101,6 +100,11 @@ State<D> mixed_gas(const Model<D>& model, int count, std::uint64_t seed, double 
   if (is_walled(model)) return state;
   for (Vec<D>& v : state.velocities) v -= momentum / mass;
   return state;
+}
+
+template <int D>
+State<D> mixed_gas(const Model<D>& model, int count, std::uint64_t seed, double ratio) {
+  return mixed(model, clear_gas(model, count, seed), ratio);
 }
 
 template <int D>
@@ -173,6 +177,7 @@ void check_sound(const Simulation<D>& simulation) {
 
 template State<2> random_gas(const Model<2>&, int, std::uint64_t);
 template State<2> clear_gas(const Model<2>&, int, std::uint64_t);
+template State<2> mixed(const Model<2>&, State<2>, double);
 template State<2> mixed_gas(const Model<2>&, int, std::uint64_t, double);
 template double brute_force_overlap(const Model<2>&, const State<2>&);
 template Vec<2> momentum(const State<2>&);
@@ -181,6 +186,7 @@ template std::string stop_of(Simulation<2>&, double);
 template void check_sound(const Simulation<2>&);
 template State<3> random_gas(const Model<3>&, int, std::uint64_t);
 template State<3> clear_gas(const Model<3>&, int, std::uint64_t);
+template State<3> mixed(const Model<3>&, State<3>, double);
 template State<3> mixed_gas(const Model<3>&, int, std::uint64_t, double);
 template double brute_force_overlap(const Model<3>&, const State<3>&);
 template Vec<3> momentum(const State<3>&);

@@ -18,9 +18,13 @@ State<D> random_gas(const Model<D>& model, int count, std::uint64_t seed);
 template <int D>
 State<D> clear_gas(const Model<D>& model, int count, std::uint64_t seed);
 
-/// The same gas, in which every second and third particle of three are of other species: their
+/// The same particles, of which every second and third of three are of other species: their
 /// diameters are those of the model divided by `ratio` and by its root, their masses and inertias
-/// differ.
+/// differ. Without walls the momentum becomes zero.
+template <int D>
+State<D> mixed(const Model<D>& model, State<D> state, double ratio);
+
+/// A clear_gas with these species.
 template <int D>
 State<D> mixed_gas(const Model<D>& model, int count, std::uint64_t seed, double ratio);
 
