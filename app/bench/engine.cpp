@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <locale>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <vector>
 
 #include "app/bench/plot_file.h"
@@ -14,6 +16,7 @@
 #include "app/system/outputs.h"
 #include "engine/dimension.h"
 #include "engine/error.h"
+#include "engine/initial/mixture_state.h"
 #include "engine/physics/lattice.h"
 #include "engine/physics/theory.h"
 #include "engine/run/scheduled_run.h"
@@ -41,17 +44,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Equilibrates for a number of collisions per particle.
-template <int D>
-EngineRate measure_run(const Scene& scene, std::uint64_t equilibration) {
+// Measures the run that `make` returns. Equilibrates for a number of collisions per particle.
+template <class Make>
+EngineRate measure_run(int count, double fraction, std::uint64_t equilibration, const Make& make) {
   constexpr int kRepetitions = 3;
-  const auto particles = static_cast<std::uint64_t>(scene.particles.count);
+  const auto particles = static_cast<std::uint64_t>(count);
   restart_peak_memory();
   const std::uint64_t memory_before = peak_memory_bytes();
   const double setup_began = cpu_seconds();
-  const auto simulation = simulation_of<D>(scene, 1);
-  EngineRate result{scene.particles.count, scene.packing_fraction(), 0.0,
-                    cpu_seconds() - setup_began, 0.0};
+  const auto simulation = make();
+  EngineRate result{count, fraction, 0.0, cpu_seconds() - setup_began, 0.0};
   simulation->run_until(kNever, equilibration * particles / 2);
   const std::uint64_t batch = std::max<std::uint64_t>(1'000'000, particles);
   for (int k = 0; k < kRepetitions; ++k) {
@@ -70,13 +72,43 @@ EngineRate measure_run(const Scene& scene, std::uint64_t equilibration) {
 // Elastic particles are in equilibrium after about ten collisions each.
 EngineRate measure_engine(const Scene& scene, std::uint64_t equilibration = 10) {
   return with_dimension(scene.dimension(), [&](auto dimension) {
-    return measure_run<dimension>(scene, equilibration);
+    return measure_run(scene.particles.count, scene.packing_fraction(), equilibration,
+                       [&] { return simulation_of<dimension>(scene, 1); });
+  });
+}
+
+// A mixture of elastic particles in a periodic square or cube.
+template <int D>
+EngineRate measure_mixture(const std::vector<BenchSpecies>& species, double fraction) {
+  std::vector<Grain> grains;
+  Model<D> model;
+  model.diameter = 0.0;
+  double volume = 0.0;
+  for (std::uint32_t s = 0; s < species.size(); ++s) {
+    const auto& [count, diameter, mass] = species[s];
+    grains.insert(grains.end(), static_cast<std::size_t>(count),
+                  {.radius = 0.5 * diameter, .mass = mass, .species = s});
+    model.diameter = std::max(model.diameter, diameter);
+    volume += packing_fraction(D, count * std::pow(diameter, D));
+  }
+  model.box.setConstant(std::pow(volume / fraction, 1.0 / D));
+  model.species =
+      SpeciesLaws<D>{.pairs = std::vector<PairLaw>(species.size() * species.size()),
+                     .walls = std::vector<std::array<std::optional<Wall>, 2 * D>>(species.size())};
+  const int count = static_cast<int>(grains.size());
+  return measure_run(count, fraction, 10, [&] {
+    State<D> state = mixture_state<D>(model, grains, 1.0, 1);
+    if (state.positions.empty()) {
+      throw UserError({"--species", 0, 0}, "these particles find no places at this fraction",
+                      "choose a smaller fraction");
+    }
+    return std::make_unique<Simulation<D>>(model, std::move(state));
   });
 }
 
 // Prints the rows of a table and returns them as JSON.
 Json print_rates(const std::vector<EngineCell>& cells, int dimension,
-                 std::vector<EngineRate>& rates) {
+                 const std::vector<BenchSpecies>& species, std::vector<EngineRate>& rates) {
   const bool disks = dimension == 2;
   std::fprintf(stderr, "elastic %s, periodic box; Mcoll/s: 10^6 pair collisions per CPU second\n",
                disks ? "disks" : "spheres");
@@ -84,7 +116,12 @@ Json print_rates(const std::vector<EngineCell>& cells, int dimension,
                      disks ? "bytes/disk" : "bytes/sph."));
   Json json = Json::array();
   for (const auto& [count, fraction] : cells) {
-    EngineRate r = measure_engine(elastic_gas(count, fraction, dimension));
+    EngineRate r;
+    if (species.empty()) {
+      r = measure_engine(elastic_gas(count, fraction, dimension));
+    } else {
+      r = with_dimension(dimension, [&](auto d) { return measure_mixture<d>(species, fraction); });
+    }
     r.fraction = fraction;  // the box differs by rounding
     rates.push_back(r);
     const double bytes = r.bytes_per_particle;
@@ -153,11 +190,38 @@ std::vector<Inhomogeneous> inhomogeneous_gases(int count) {
           {"collapsed under gravity", std::move(falling), 200}};
 }
 
+std::vector<BenchSpecies> parse_species(const std::string& text) {
+  constexpr int kMost = 10'000'000;
+  constexpr double kLeast = 1e-3, kLargest = 1e3, kLeastMass = 1e-9, kLargestMass = 1e9;
+  std::vector<BenchSpecies> species;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) {
+    std::istringstream numbers(part);
+    numbers.imbue(std::locale::classic());
+    BenchSpecies s;
+    char colon = 0, another = 0;
+    const bool reads = numbers >> s.count >> colon >> s.diameter >> another >> s.mass &&
+                       numbers.peek() == std::istringstream::traits_type::eof() && colon == ':' &&
+                       another == ':';
+    if (!reads || s.count < 1 || s.count > kMost || !(s.diameter >= kLeast) ||
+        !(s.diameter <= kLargest) || !(s.mass >= kLeastMass) || !(s.mass <= kLargestMass)) {
+      throw UserError({"--species", 0, 0}, "`" + part + "` is not a count, a diameter and a mass",
+                      "write COUNT:DIAMETER:MASS for each species, with commas between them");
+    }
+    species.push_back(s);
+  }
+  return species;
+}
+
 std::vector<EngineCell> engine_cells(const EngineTable& table) {
   const int dimension = table.volume_fraction ? 3 : table.dimension;
   const double fraction = table.volume_fraction.value_or(table.area_fraction);
   std::vector<EngineCell> cells;
-  if (table.count > 0) {
+  if (!table.species.empty()) {
+    int count = 0;
+    for (const BenchSpecies& species : table.species) count += species.count;
+    cells = {{count, fraction}};
+  } else if (table.count > 0) {
     if (!has_room(table.count, fraction, dimension)) {
       throw UserError({table.volume_fraction ? "--volume-fraction" : "--area-fraction", 0, 0},
                       "no square or cubic box holds this number of particles at this fraction",
@@ -178,8 +242,8 @@ std::vector<EngineCell> engine_cells(const EngineTable& table) {
 
 int bench_engine(const std::string& json, const EngineTable& table) {
   std::vector<EngineRate> rates;
-  const Json rows =
-      print_rates(engine_cells(table), table.volume_fraction ? 3 : table.dimension, rates);
+  const Json rows = print_rates(engine_cells(table), table.volume_fraction ? 3 : table.dimension,
+                                table.species, rates);
   if (!json.empty()) write_file(json, rows.dump(1) + "\n");
   return kOk;
 }
@@ -200,7 +264,7 @@ std::vector<EngineCell> growth_cells(int count) {
 int bench_growth(const std::string& json, const std::string& plot, int count) {
   if (!plot.empty()) require_writable_file(plot, "--plot");
   std::vector<EngineRate> rates;
-  Json rows = print_rates(growth_cells(count), 2, rates);
+  Json rows = print_rates(growth_cells(count), 2, {}, rates);
   // A small gas cools into one cluster with hardly any collisions.
   for (Json& row : print_inhomogeneous(count > 0 ? std::clamp(count, 20'000, 100'000) : 100'000)) {
     rows.push_back(std::move(row));

@@ -18,12 +18,24 @@ Scene elastic_gas(int count, double fraction, int dimension = 2);
 /// Whether a start state of this gas exists.
 bool has_room(int count, double fraction, int dimension);
 
+/// One species of a mixture that is measured.
+struct BenchSpecies {
+  int count = 0;
+  double diameter = 1.0;
+  double mass = 1.0;
+};
+
+/// Species from text like "500:1:1,500:1.4:1.96", see `clatter bench engine --help`. Throws
+/// UserError.
+std::vector<BenchSpecies> parse_species(const std::string& text);
+
 /// The cells of the engine's table.
 struct EngineTable {
   int dimension = 2;
-  int count = 0;                          ///< particles of the only cell; 0: the whole table
-  double area_fraction = 0.5;             ///< of disks, in the only cell
-  std::optional<double> volume_fraction;  ///< of spheres, in the only cell; absent: disks
+  int count = 0;                           ///< particles of the only cell; 0: the whole table
+  double area_fraction = 0.5;              ///< of disks, in the only cell
+  std::optional<double> volume_fraction;   ///< of spheres, in the only cell; absent: disks
+  std::vector<BenchSpecies> species = {};  ///< of a mixture, the only cell; empty: one species
 };
 
 /// A row of the engine's table: the number of particles, and the fraction that they fill.

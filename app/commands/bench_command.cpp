@@ -8,6 +8,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/flag_checks.h"
 #include "app/system/outputs.h"
+#include "engine/error.h"
 
 namespace clatter {
 
@@ -35,6 +36,7 @@ struct CoresOptions {
 struct EngineOptions {
   std::string json;
   EngineTable table;
+  std::string species;
 };
 
 void add_json_flag(CLI::App& table, std::string& json) {
@@ -76,16 +78,28 @@ void add_engine_table(CLI::App& bench, int& exit_code) {
                           ->add_option("--area-fraction", options->table.area_fraction,
                                        "Area fraction of that cell, of disks.")
                           ->check(number_between(1e-6, 0.9))
-                          ->needs(count)
                           ->capture_default_str();
-  table
-      ->add_option("--volume-fraction", options->table.volume_fraction,
-                   "Volume fraction of that cell, of spheres.")
-      ->check(number_between(1e-6, 0.74))
-      ->needs(count)
-      ->excludes(area);
-  table->callback(
-      [options, &exit_code] { exit_code = bench_engine(options->json, options->table); });
+  CLI::Option* volume = table
+                            ->add_option("--volume-fraction", options->table.volume_fraction,
+                                         "Volume fraction of that cell, of spheres.")
+                            ->check(number_between(1e-6, 0.74))
+                            ->excludes(area);
+  CLI::Option* species =
+      table
+          ->add_option("--species", options->species,
+                       "A mixture: number, diameter and mass of the particles of each species. The "
+                       "table then has one cell.")
+          ->type_name("COUNT:DIAMETER:MASS,...")
+          ->excludes(count);
+  table->callback([options, count, area, volume, species, &exit_code] {
+    const bool fills = area->count() + volume->count() > 0;
+    if (fills && count->count() + species->count() == 0) {
+      throw UserError({area->count() > 0 ? "--area-fraction" : "--volume-fraction", 0, 0},
+                      "it needs --count or --species", "add one of them");
+    }
+    if (species->count() > 0) options->table.species = parse_species(options->species);
+    exit_code = bench_engine(options->json, options->table);
+  });
 }
 
 void add_growth_table(CLI::App& bench, int& exit_code) {

@@ -16,4 +16,9 @@ template <int D>
 std::vector<Vec<D>> gaussian_velocities(std::size_t count, double temperature, std::uint64_t seed,
                                         const StopRequest& stop = {});
 
+/// The same of particles of these masses: of variance T/m, with total momentum 0.
+template <int D>
+std::vector<Vec<D>> gaussian_velocities(const std::vector<double>& masses, double temperature,
+                                        std::uint64_t seed, const StopRequest& stop = {});
+
 }  // namespace clatter

@@ -1,0 +1,56 @@
+#include "engine/initial/mixture_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "engine/initial/gaussian_velocities.h"
+#include "engine/initial/overlap_removal.h"
+
+namespace clatter {
+
+// The order of places along rows of a height, and of rows from bottom to top.
+template <int D>
+static std::vector<std::uint32_t> order_by_rows(const std::vector<Vec<D>>& places, double height) {
+  std::vector<std::uint32_t> order(places.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, [&](std::uint32_t a, std::uint32_t b) {
+    for (int k = D - 1; k > 0; --k) {
+      const double row_a = std::floor(places[a][k] / height);
+      const double row_b = std::floor(places[b][k] / height);
+      if (row_a != row_b) return row_a < row_b;
+    }
+    return places[a][0] < places[b][0];
+  });
+  return order;
+}
+
+template <int D>
+State<D> mixture_state(const Model<D>& model, const std::vector<Grain>& grains, double temperature,
+                       std::uint64_t seed, const StopRequest& stop) {
+  std::vector<double> radii;
+  for (const Grain& grain : grains) radii.push_back(grain.radius);
+  Random random(seed, Stream::Placement, 0, 0);
+  OverlapRemoval<D> removal(model.domain(), std::move(radii), random);
+  if (!removal.advance(stop)) throw Interrupted();
+  const std::vector<Vec<D>> places = removal.take();
+  constexpr double kRowHeight = 1.3;  // in sides of the box of one particle
+  const double height =
+      kRowHeight * std::pow(model.box.prod() / static_cast<double>(grains.size()), 1.0 / D);
+  State<D> state;
+  std::vector<double> masses;
+  for (const std::uint32_t i : order_by_rows<D>(places, height)) {
+    state.positions.push_back(places[i]);
+    state.grains.push_back(grains[i]);
+    masses.push_back(grains[i].mass);
+  }
+  state.velocities = gaussian_velocities<D>(masses, temperature, seed, stop);
+  return state;
+}
+
+template State<2> mixture_state(const Model<2>&, const std::vector<Grain>&, double, std::uint64_t,
+                                const StopRequest&);
+template State<3> mixture_state(const Model<3>&, const std::vector<Grain>&, double, std::uint64_t,
+                                const StopRequest&);
+
+}  // namespace clatter

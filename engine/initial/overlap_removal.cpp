@@ -1,0 +1,140 @@
+#include "engine/initial/overlap_removal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/dynamics/cell_of.h"
+
+namespace clatter {
+
+template <int D>
+OverlapRemoval<D>::OverlapRemoval(const Domain<D>& domain, std::vector<double> radii,
+                                  Random& random)
+    : domain_(domain), radii_(std::move(radii)) {
+  const double largest = radii_.empty() ? 0.5 : *std::ranges::max_element(radii_);
+  std::size_t cells = 1;
+  for (int axis = 0; axis < D; ++axis) {
+    constexpr double kWider = 1.01;  // than the largest diameter
+    const double most = std::floor(std::pow(2.0 * static_cast<double>(radii_.size()), 1.0 / D));
+    const double fit = std::floor(domain.box[axis] / (2.0 * kWider * largest));
+    counts_[axis] = static_cast<int>(std::clamp(fit, 1.0, std::max(1.0, most)));
+    widths_[axis] = domain.box[axis] / counts_[axis];
+    cells *= static_cast<std::size_t>(counts_[axis]);
+  }
+  first_.resize(cells + 1);
+  for (std::uint32_t i = 0; i < radii_.size(); ++i) {
+    Vec<D>& place = places_.emplace_back();
+    for (int axis = 0; axis < D; ++axis) place[axis] = random.uniform() * domain.box[axis];
+    keep_inside(i);
+  }
+}
+
+template <int D>
+bool OverlapRemoval<D>::advance(const StopRequest& pause) {
+  constexpr int kMostSweeps = 20'000;
+  while (overlaps_ && sweeps_ < kMostSweeps) {
+    if (pause.made()) return false;
+    sort_into_cells();
+    overlaps_ = sweep();
+    ++sweeps_;
+  }
+  return true;
+}
+
+template <int D>
+std::vector<Vec<D>> OverlapRemoval<D>::take() {
+  return overlaps_ ? std::vector<Vec<D>>() : std::exchange(places_, {});
+}
+
+// A counting sort.
+template <int D>
+void OverlapRemoval<D>::sort_into_cells() {
+  std::vector<std::uint32_t> cells(places_.size());
+  std::ranges::fill(first_, 0);
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const IntVec<D> cell = cell_of<D>(places_[i], widths_, counts_);
+    std::uint32_t index = 0;
+    for (int axis = D - 1; axis >= 0; --axis) {
+      index = index * static_cast<std::uint32_t>(counts_[axis]) +
+              static_cast<std::uint32_t>(cell[axis]);
+    }
+    cells[i] = index;
+    ++first_[index + 1];
+  }
+  for (std::size_t k = 1; k < first_.size(); ++k) first_[k] += first_[k - 1];
+  order_.resize(places_.size());
+  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+  for (std::uint32_t i = 0; i < places_.size(); ++i) order_[next[cells[i]]++] = i;
+}
+
+// Parts all pairs once. Returns whether any overlapped.
+template <int D>
+bool OverlapRemoval<D>::sweep() {
+  bool any = false;
+  for (std::uint32_t i = 0; i < places_.size(); ++i) {
+    const IntVec<D> own = cell_of<D>(places_[i], widths_, counts_);
+    IntVec<D> step = IntVec<D>::Constant(-1);
+    while (step[D - 1] <= 1) {
+      any = part_from(i, own + step) || any;
+      for (int axis = 0; ++step[axis] > 1 && axis < D - 1; ++axis) step[axis] = -1;
+    }
+  }
+  return any;
+}
+
+// Parts a particle from those of a cell that have higher numbers. The cell may be one beyond the
+// box.
+template <int D>
+bool OverlapRemoval<D>::part_from(std::uint32_t particle, const IntVec<D>& cell) {
+  std::size_t index = 0;
+  for (int axis = D - 1; axis >= 0; --axis) {
+    const int count = counts_[axis];
+    int at = cell[axis];
+    if (at < 0 || at >= count) {
+      if (!domain_.periodic[axis] || count < 3) return false;
+      at -= at < 0 ? -count : count;
+    }
+    index = index * static_cast<std::size_t>(count) + static_cast<std::size_t>(at);
+  }
+  bool any = false;
+  for (std::uint32_t k = first_[index]; k < first_[index + 1]; ++k) {
+    if (order_[k] > particle) any = part(particle, order_[k]) || any;
+  }
+  return any;
+}
+
+// Moves two particles apart if they overlap. Each moves by a share like the volume of the other.
+template <int D>
+bool OverlapRemoval<D>::part(std::uint32_t a, std::uint32_t b) {
+  constexpr double kGap = 1e-3;  // that remains, as a share of the distance at contact
+  const double distance = radii_[a] + radii_[b];
+  Vec<D> way = domain_.shortest(places_[b] - places_[a]);
+  const double square = way.squaredNorm();
+  if (square >= distance * distance) return false;
+  const double length = std::sqrt(square);
+  way = length > 0.0 ? Vec<D>(way / length) : Vec<D>(Vec<D>::Unit(static_cast<int>(a % D)));
+  const double volume_a = std::pow(radii_[a], D), volume_b = std::pow(radii_[b], D);
+  const double apart = (1.0 + kGap) * distance - length;
+  places_[a] -= apart * volume_b / (volume_a + volume_b) * way;
+  places_[b] += apart * volume_a / (volume_a + volume_b) * way;
+  keep_inside(a);
+  keep_inside(b);
+  return true;
+}
+
+template <int D>
+void OverlapRemoval<D>::keep_inside(std::uint32_t particle) {
+  Vec<D>& place = places_[particle];
+  place = domain_.wrapped(place);
+  for (int axis = 0; axis < D; ++axis) {
+    if (domain_.periodic[axis]) continue;
+    const double radius = radii_[particle];
+    place[axis] = std::clamp(place[axis], radius, domain_.box[axis] - radius);
+  }
+}
+
+template class OverlapRemoval<2>;
+template class OverlapRemoval<3>;
+
+}  // namespace clatter
