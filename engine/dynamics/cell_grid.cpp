@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 namespace clatter {
@@ -33,24 +34,79 @@ static IntVec<D> choose_counts(const Vec<D>& box, double diameter, double cells)
   return counts;
 }
 
+// Number of lists along an axis that a particle with a reach above 1 reads.
+static int lists_along(int reach) {
+  return (2 * reach + 3) / 3;
+}
+
+namespace {
+
+// Cells along each axis.
 template <int D>
-CellGrid<D>::CellGrid(const Subdomain<D>& subdomain, double diameter, double cells)
-    : diameter_(diameter) {
-  reset(subdomain, cells);
+struct Layout {
+  IntVec<D> counts;
+  Vec<D> widths, overhangs;
+
+  // Two particles whose cells are more than n cells apart along an axis have a distance of at least
+  // n widths without the overhangs of both.
+  int reach(double base, double diameter) const {
+    constexpr double kMargin = 1.005;  // more than any rounding of positions
+    if (diameter <= base) return 1;
+    const Vec<D> ways = Vec<D>::Constant(0.5 * kMargin * (diameter + base)) + 2.0 * overhangs;
+    return std::max(1, static_cast<int>(std::ceil(ways.cwiseQuotient(widths).maxCoeff())));
+  }
+};
+
+}  // namespace
+
+template <int D>
+static Layout<D> lay_cells(const Vec<D>& extent, double base, double cells) {
+  Layout<D> layout{.counts = choose_counts<D>(extent, base, cells), .widths = {}, .overhangs = {}};
+  layout.widths = extent.cwiseQuotient(layout.counts.template cast<double>());
+  layout.overhangs = 0.5 * (layout.widths - Vec<D>::Constant(kMinWidth * base)).cwiseMax(0.0);
+  return layout;
+}
+
+// Whether a periodic box has so many cells that no particle touches another one through two images
+// on its lists.
+template <int D>
+static bool is_wide(const Layout<D>& layout, const Subdomain<D>& subdomain,
+                    const GridSizes& sizes) {
+  const int reach = layout.reach(sizes.base, sizes.largest);
+  for (int axis = 0; axis < D; ++axis) {
+    if (subdomain.ends[static_cast<std::size_t>(2 * axis)] != End::Periodic) continue;
+    const int others = layout.counts[axis] - 1;
+    const double contact = kMinWidth * sizes.largest + 2.0 * layout.overhangs[axis];
+    if (reach > others || contact > others * layout.widths[axis]) return false;
+  }
+  return true;
 }
 
 template <int D>
-void CellGrid<D>::reset(const Subdomain<D>& subdomain, double cells) {
+CellGrid<D>::CellGrid(const Subdomain<D>& subdomain, const GridSizes& sizes, double cells) {
+  reset(subdomain, sizes, cells);
+}
+
+template <int D>
+void CellGrid<D>::reset(const Subdomain<D>& subdomain, const GridSizes& sizes, double cells) {
   subdomain_ = subdomain;
+  sizes_ = sizes;
+  base_ = sizes.base;
   open_ = subdomain.open();
   cells_ = cells;
   const Vec<D> extent = subdomain.upper - subdomain.lower;
-  counts_ = choose_counts<D>(extent, diameter_, cells);
+  Layout<D> layout = lay_cells<D>(extent, base_, cells);
+  if (base_ < sizes.largest && !is_wide(layout, subdomain, sizes)) {
+    base_ = sizes.largest;
+    layout = lay_cells<D>(extent, base_, cells);
+  }
+  counts_ = layout.counts;
+  widths_ = layout.widths;
+  overhangs_ = layout.overhangs;
+  margin_ = reach_of(sizes_.largest);
   int stride = 1;
   for (int axis = 0; axis < D; ++axis) {
     const int count = counts_[axis];
-    widths_[axis] = extent[axis] / count;
-    overhangs_[axis] = 0.5 * std::max(0.0, widths_[axis] - kMinWidth * diameter_);
     auto& borders = borders_[axis];
     borders.clear();
     for (int cell = 0; cell < count; ++cell) {
@@ -59,9 +115,10 @@ void CellGrid<D>::reset(const Subdomain<D>& subdomain, double cells) {
     }
     strides_[axis] = stride;
     auto& places = places_[axis];
-    places.assign(static_cast<std::size_t>(count) + 2, Place{});
+    places.assign(static_cast<std::size_t>(count + 2 * margin_), Place{});
     for (int cell = 0; cell < count; ++cell) {
-      places[static_cast<std::size_t>(cell) + 1].index = static_cast<std::uint32_t>(cell * stride);
+      places[static_cast<std::size_t>(cell + margin_)].index =
+          static_cast<std::uint32_t>(cell * stride);
     }
     const auto end = [&](int upper) {
       return subdomain.ends[static_cast<std::size_t>(2 * axis + upper)];
@@ -72,8 +129,12 @@ void CellGrid<D>::reset(const Subdomain<D>& subdomain, double cells) {
       const auto wrap = [&](unsigned bits) {
         return Neighbour{bits} << (kParticleBits<D> + 2 * axis);
       };
-      places.front() = {places[static_cast<std::size_t>(count)].index, wrap(0b01)};
-      places.back() = {places[1].index, wrap(0b11)};
+      for (int beyond = 1; beyond <= margin_; ++beyond) {
+        const auto index_of = [&](int cell) { return static_cast<std::uint32_t>(cell * stride); };
+        places[static_cast<std::size_t>(margin_ - beyond)] = {index_of(count - beyond), wrap(0b01)};
+        places[static_cast<std::size_t>(margin_ + count - 1 + beyond)] = {index_of(beyond - 1),
+                                                                          wrap(0b11)};
+      }
     }
     if (end(0) == End::Wall) borders.front() = -kInfinity;
     if (end(1) == End::Wall) borders.back() = kInfinity;
@@ -89,21 +150,33 @@ IntVec<D> CellGrid<D>::cell_at(const Vec<D>& position) const {
 }
 
 template <int D>
-void CellGrid<D>::insert(std::uint32_t particle, const IntVec<D>& cell) {
-  visit_lists<D - 1>(about(cell), 0, 0, [&](std::uint32_t list, Neighbour wrap) {
+int CellGrid<D>::wide_reach(double diameter) const {
+  return Layout<D>{counts_, widths_, overhangs_}.reach(base_, diameter);
+}
+
+template <int D>
+void CellGrid<D>::insert(std::uint32_t particle, const IntVec<D>& cell, int reach) {
+  visit_lists<D - 1>(about(cell, reach), 0, 0, [&](std::uint32_t list, Neighbour wrap) {
     continuations_.put_on(lists_[list], particle | wrap);
   });
 }
 
 template <int D>
-void CellGrid<D>::fill(const std::vector<IntVec<D>>& cells, std::vector<std::uint32_t>& order) {
-  // The particles of a cell have the numbers from starts[index] on, up to those of the next cell.
-  std::vector<std::uint32_t> starts(lists_.size() + 1);
+void CellGrid<D>::sort(const std::vector<IntVec<D>>& cells, std::vector<std::uint32_t>& order,
+                       std::vector<std::uint32_t>& starts) const {
+  // The particles of a cell have the places from starts[index] on, up to those of the next cell.
+  starts.assign(lists_.size() + 1, 0);
   for (const IntVec<D>& cell : cells) ++starts[index(cell) + 1];
   for (std::size_t k = 1; k < starts.size(); ++k) starts[k] += starts[k - 1];
   order.resize(cells.size());
   std::vector<std::uint32_t> places(starts.begin(), starts.end() - 1);
   for (std::uint32_t k = 0; k < cells.size(); ++k) order[places[index(cells[k])]++] = k;
+}
+
+template <int D>
+void CellGrid<D>::fill(const std::vector<IntVec<D>>& cells, std::vector<std::uint32_t>& order) {
+  std::vector<std::uint32_t> starts;
+  sort(cells, order, starts);
   IntVec<D> cell = IntVec<D>::Zero();
   for (List& list : lists_) {
     if (!fill_by_rows(list, cell, starts)) fill_by_cells(list, cell, starts);
@@ -155,37 +228,40 @@ void CellGrid<D>::fill_by_cells(List& list, const IntVec<D>& cell,
 }
 
 template <int D>
-void CellGrid<D>::remove(std::uint32_t particle, const IntVec<D>& cell) {
-  visit_lists<D - 1>(about(cell), 0, 0, [&](std::uint32_t list, Neighbour wrap) {
+void CellGrid<D>::remove(std::uint32_t particle, const IntVec<D>& cell, int reach) {
+  visit_lists<D - 1>(about(cell, reach), 0, 0, [&](std::uint32_t list, Neighbour wrap) {
     continuations_.take_off(lists_[list], particle | wrap);
   });
 }
 
 template <int D>
-void CellGrid<D>::move(std::uint32_t particle, const IntVec<D>& cell, int axis, int step) {
+void CellGrid<D>::move(std::uint32_t particle, const IntVec<D>& cell, int axis, int step,
+                       int reach) {
   const int next = cell[axis] + step;
   if (next < 0 || next == counts_[axis]) {
     // A particle that crosses a periodic border has another wrap in every list.
-    remove(particle, cell);
-    insert(particle, neighbour(cell, axis, step));
+    remove(particle, cell, reach);
+    insert(particle, neighbour(cell, axis, step), reach);
     return;
   }
-  visit_lists<D - 1>(row(cell, axis, cell[axis] - step), 0, 0,
+  visit_lists<D - 1>(row(cell, axis, cell[axis] - reach * step, reach), 0, 0,
                      [&](std::uint32_t list, Neighbour wrap) {
                        continuations_.take_off(lists_[list], particle | wrap);
                      });
-  visit_lists<D - 1>(row(cell, axis, next + step), 0, 0, [&](std::uint32_t list, Neighbour wrap) {
-    continuations_.put_on(lists_[list], particle | wrap);
-  });
+  visit_lists<D - 1>(row(cell, axis, next + reach * step, reach), 0, 0,
+                     [&](std::uint32_t list, Neighbour wrap) {
+                       continuations_.put_on(lists_[list], particle | wrap);
+                     });
 }
 
 template <int D>
-Vec<D> CellGrid<D>::leave(std::uint32_t particle, IntVec<D>& cell, std::uint32_t border) {
+Vec<D> CellGrid<D>::leave(std::uint32_t particle, IntVec<D>& cell, std::uint32_t border,
+                          int reach) {
   const auto [axis, step] = crossing_of(border);
   const IntVec<D> next = neighbour(cell, axis, step);
   Vec<D> boxes = Vec<D>::Zero();
   if (next[axis] != cell[axis] + step) boxes[axis] = step;
-  move(particle, cell, axis, step);
+  move(particle, cell, axis, step, reach);
   cell = next;
   return boxes;
 }
@@ -207,10 +283,61 @@ bool CellGrid<D>::fit(double particles, double near) {
   const bool fine = crowding > (cells_ > even ? kEven : kCrowded);
   const double wanted = fine ? particles * std::min(crowding / kWanted, kMax) : even;
   if (std::max(wanted, cells_) < kWorthwhile * std::min(wanted, cells_)) return false;
-  *this = CellGrid(subdomain_, diameter_, wanted);
+  *this = CellGrid(subdomain_, sizes_, wanted);
   return true;
 }
 
+template <int D>
+GridSizes grid_sizes(const Model<D>& model, std::span<const Grain> grains) {
+  GridSizes best{model.diameter, model.diameter};
+  if (grains.empty()) return best;
+  // Particles of about the same size, and the mean size and mobility of all.
+  struct Class {
+    double count = 0.0, diameter = 0.0, mobility = 0.0;
+  };
+  constexpr double kClassesPerOctave = 8.0;
+  std::map<int, Class> classes;
+  const auto particles = static_cast<double>(grains.size());
+  double mean = 0.0, mobility = 0.0;
+  for (const Grain& grain : grains) {
+    const double diameter = 2.0 * grain.radius;
+    const double number = std::ceil(kClassesPerOctave * std::log2(diameter / model.diameter));
+    Class& of = classes[static_cast<int>(number)];
+    of.count += 1.0;
+    of.diameter = std::max(of.diameter, diameter);
+    of.mobility += 1.0 / grain.mass;
+    mean += diameter / particles;
+    mobility += 1.0 / (grain.mass * particles);
+  }
+  // Mean number of neighbours that a search reads; a list costs as much as some neighbours more.
+  const auto cost_of = [&](double base) {
+    constexpr double kPerList = 8.0;
+    const Layout<D> layout =
+        lay_cells<D>(model.box, base, CellGrid<D>::kCellsPerParticle * particles);
+    const double cells = layout.counts.template cast<double>().prod();
+    double on_list = 0.0, searches = 0.0, lists = 0.0;
+    for (const auto& [number, of] : classes) {
+      const int reach = layout.reach(base, of.diameter);
+      const double rate = of.count * std::pow(of.diameter + mean, D - 1) *
+                          std::sqrt(of.mobility / of.count + mobility);
+      on_list += of.count * std::pow(2 * reach + 1, D) / cells;
+      searches += rate;
+      lists += rate * (reach == 1 ? 1.0 : std::pow(lists_along(reach), D));
+    }
+    return lists / searches * (kPerList + on_list);
+  };
+  double least = kInfinity;
+  for (const auto& [number, of] : classes) {
+    const double cost = cost_of(of.diameter);
+    if (cost >= least) continue;
+    least = cost;
+    best.base = of.diameter;
+  }
+  return best;
+}
+
+template GridSizes grid_sizes(const Model<2>&, std::span<const Grain>);
+template GridSizes grid_sizes(const Model<3>&, std::span<const Grain>);
 template class CellGrid<2>;
 template class CellGrid<3>;
 

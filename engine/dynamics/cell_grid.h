@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/dynamics/cell_of.h"
@@ -21,6 +22,16 @@
 
 namespace clatter {
 
+/// Diameters of the particles of a grid.
+struct GridSizes {
+  double base;     ///< cells are wider, and particles up to this diameter have reach 1
+  double largest;  ///< of all particles, >= base
+};
+
+/// The sizes for the fastest search among particles in a box: `base` is one of their diameters.
+template <int D>
+GridSizes grid_sizes(const Model<D>& model, std::span<const Grain> grains);
+
 /// Grid of cells that finds near particles. Two particles that touch belong to the same cell or to
 /// neighbouring cells. A particle stays in its cell until it is beyond the cell's border by an
 /// overhang. This hysteresis prevents repeated crossings; the overhang is as wide as the first
@@ -30,6 +41,11 @@ namespace clatter {
 /// only one or two cells wide, a particle occurs several times with different wraps. A search for
 /// partners reads one list. A crossing removes the particle from one row of lists and adds it to
 /// another. Searches are far more frequent than crossings.
+///
+/// In a mixture the cells may be smaller than large particles. A particle is on the lists of all
+/// cells within its reach, a number of cells along each axis. The reach is 1 up to the base
+/// diameter. Beyond it any particle of the base diameter that touches has the large particle on its
+/// list. A large particle reads several lists, which lie three cells apart (visit_wide).
 template <int D>
 class CellGrid {
  public:
@@ -38,22 +54,29 @@ class CellGrid {
   /// volume fractions from 0.05 to 0.3.
   static constexpr double kCellsPerParticle = D == 2 ? 1.0 : 1.3;
 
-  /// An empty grid over a subdomain, of about so many cells, each wider than a diameter.
-  CellGrid(const Subdomain<D>& subdomain, double diameter, double cells);
-  /// The same over the whole box.
+  /// An empty grid over a subdomain, of about so many cells, each wider than the base diameter.
+  CellGrid(const Subdomain<D>& subdomain, const GridSizes& sizes, double cells);
+  /// The same over the whole box, for particles that are alike.
   CellGrid(const Model<D>& model, double cells)
-      : CellGrid(whole_box<D>(model), model.diameter, cells) {}
+      : CellGrid(whole_box<D>(model), {model.diameter, model.diameter}, cells) {}
 
+  /// Reach of a particle.
+  int reach_of(double diameter) const { return diameter <= base_ ? 1 : wide_reach(diameter); }
   /// Puts a particle into a cell.
-  void insert(std::uint32_t particle, const IntVec<D>& cell);
-  /// Puts particles into their cells, in an empty grid. Numbers them by cell: the new particle k is
-  /// the element order[k] of `cells`.
+  void insert(std::uint32_t particle, const IntVec<D>& cell, int reach = 1);
+  /// Puts particles of reach 1 into their cells, in an empty grid. Numbers them by cell: the new
+  /// particle k is the element order[k] of `cells`.
   void fill(const std::vector<IntVec<D>>& cells, std::vector<std::uint32_t>& order);
+  /// The order of particles by cell: the k-th has the cell cells[order[k]].
+  void sort(const std::vector<IntVec<D>>& cells, std::vector<std::uint32_t>& order) const {
+    std::vector<std::uint32_t> starts;
+    sort(cells, order, starts);
+  }
   /// Removes a particle from its cell.
-  void remove(std::uint32_t particle, const IntVec<D>& cell);
+  void remove(std::uint32_t particle, const IntVec<D>& cell, int reach = 1);
   /// Moves a particle from its cell to the neighbour along an axis, on the side of `step` = +1 or
   /// -1.
-  void move(std::uint32_t particle, const IntVec<D>& cell, int axis, int step);
+  void move(std::uint32_t particle, const IntVec<D>& cell, int axis, int step, int reach = 1);
 
   /// Number of cells along each axis.
   const IntVec<D>& counts() const { return counts_; }
@@ -98,13 +121,13 @@ class CellGrid {
                             const IntVec<D>& cell, double now) const;
   /// Moves a particle across a border of its cell. Returns its shift to another periodic image, in
   /// box lengths.
-  Vec<D> leave(std::uint32_t particle, IntVec<D>& cell, std::uint32_t border);
+  Vec<D> leave(std::uint32_t particle, IntVec<D>& cell, std::uint32_t border, int reach = 1);
   /// Adapts the number of cells to a sum over all particles of the numbers near each. Cells for the
   /// mean density have long lists in clusters; finer cells shorten these lists, up to a limit of
   /// memory. Returns whether the number has changed; the grid then is empty.
   bool fit(double particles, double near);
   /// Empties the grid and lays it over another subdomain. Keeps the memory of its lists.
-  void reset(const Subdomain<D>& subdomain, double cells);
+  void reset(const Subdomain<D>& subdomain, const GridSizes& sizes, double cells);
 
   /// The list of a cell.
   const List& near(const IntVec<D>& cell) const { return lists_[index(cell)]; }
@@ -117,13 +140,19 @@ class CellGrid {
     continuations_.visit(near(cell), visit);
   }
 
-  /// Calls visit(list) for the first list of each cell that move() changes. Across a periodic
-  /// border move() changes further lists.
+  /// Calls visit(list, wrap) for the lists that a particle with a reach above 1 reads in a cell.
+  /// `wrap` is the periodic image of the list's cell, in box lengths: it adds to the wraps of the
+  /// neighbours. A neighbour may be on several of these lists.
+  template <typename Visit>
+  void visit_wide(const IntVec<D>& cell, int reach, const Visit& visit) const;
+
+  /// Calls visit(list) for the first list of each cell that move() changes, for a reach of 1.
+  /// Across a periodic border move() changes further lists.
   template <typename Visit>
   void visit_moved(const IntVec<D>& cell, int axis, int step, const Visit& visit) const;
 
  private:
-  // A cell along one axis. There is one more beyond either end.
+  // A cell along one axis. There are margin_ more beyond either end.
   static constexpr std::uint32_t kNone = List::kNone;
   struct Place {
     std::uint32_t index = kNone;  // this axis' part of the index of its list; kNone: no cell
@@ -133,29 +162,34 @@ class CellGrid {
     IntVec<D> from;
     IntVec<D> to;
   };
-  static Block about(const IntVec<D>& cell);
-  static Block row(const IntVec<D>& cell, int axis, int at);
+  static Block about(const IntVec<D>& cell, int reach = 1);
+  static Block row(const IntVec<D>& cell, int axis, int at, int reach = 1);
 
   template <int Axis, typename Visit>
   void visit_lists(const Block& block, std::uint32_t index, Neighbour wrap,
                    const Visit& visit) const;
+  void sort(const std::vector<IntVec<D>>& cells, std::vector<std::uint32_t>& order,
+            std::vector<std::uint32_t>& starts) const;
   bool fill_by_rows(List& list, const IntVec<D>& cell,
                     const std::vector<std::uint32_t>& starts) const;
   void fill_by_cells(List& list, const IntVec<D>& cell, const std::vector<std::uint32_t>& starts);
   std::uint32_t index(const IntVec<D>& cell) const;
+  int wide_reach(double diameter) const;
   Exit exit_falling(const Model<D>& model, const Flight<D>& flight, const Vec<D>& image,
                     const IntVec<D>& cell, int axis, double now) const;
 
   Subdomain<D> subdomain_;
   bool open_;        // whether particles can leave the subdomain
-  double diameter_;  // of the particles
+  GridSizes sizes_;  // requested
+  double base_;      // in force: in a narrow box the largest diameter
+  int margin_ = 1;   // reach of the largest particle
   double cells_;     // requested
   IntVec<D> counts_;
   IntVec<D> strides_;
   Vec<D> widths_;
   Vec<D> overhangs_;
   std::array<std::vector<double>, D> borders_;  // [2 counts] along each axis: lower, upper, ...
-  std::array<std::vector<Place>, D> places_;    // [counts + 2] along each axis
+  std::array<std::vector<Place>, D> places_;    // [counts + 2 margin_] along each axis
   LargeArray<List> lists_;                      // of each cell
   Continuations<D, List> continuations_;
 };
@@ -166,14 +200,14 @@ template <int D>
 }
 
 template <int D>
-typename CellGrid<D>::Block CellGrid<D>::about(const IntVec<D>& cell) {
-  return {cell - IntVec<D>::Ones(), cell + IntVec<D>::Ones()};
+typename CellGrid<D>::Block CellGrid<D>::about(const IntVec<D>& cell, int reach) {
+  return {cell - IntVec<D>::Constant(reach), cell + IntVec<D>::Constant(reach)};
 }
 
 // The cells about `cell` whose number along an axis is `at`.
 template <int D>
-typename CellGrid<D>::Block CellGrid<D>::row(const IntVec<D>& cell, int axis, int at) {
-  Block block = about(cell);
+typename CellGrid<D>::Block CellGrid<D>::row(const IntVec<D>& cell, int axis, int at, int reach) {
+  Block block = about(cell, reach);
   block.from[axis] = block.to[axis] = at;
   return block;
 }
@@ -186,7 +220,7 @@ template <int Axis, typename Visit>
                                                             Neighbour wrap,
                                                             const Visit& visit) const {
   for (int k = block.from[Axis]; k <= block.to[Axis]; ++k) {
-    const Place& place = places_[Axis][static_cast<std::size_t>(k + 1)];
+    const Place& place = places_[Axis][static_cast<std::size_t>(k + margin_)];
     if (place.index == kNone) continue;
     if constexpr (Axis == 0) {
       visit(index + place.index, wrap | place.wrap);
@@ -203,6 +237,34 @@ void CellGrid<D>::visit_moved(const IntVec<D>& cell, int axis, int step, const V
   const auto visit_list = [&](std::uint32_t list, Neighbour) { visit(lists_[list]); };
   visit_lists<D - 1>(row(cell, axis, cell[axis] - step), 0, 0, visit_list);
   visit_lists<D - 1>(row(cell, axis, next[axis] + step), 0, 0, visit_list);
+}
+
+// The lists begin at one cell from the lower end of the reach, and end at one cell from its upper
+// end or beyond. Where there are no cells, the list of the nearest cell serves.
+template <int D>
+template <typename Visit>
+void CellGrid<D>::visit_wide(const IntVec<D>& cell, int reach, const Visit& visit) const {
+  const int lists = (2 * reach + 3) / 3;  // along each axis
+  IntVec<D> number = IntVec<D>::Zero();
+  while (number[D - 1] < lists) {
+    IntVec<D> at, wrap = IntVec<D>::Zero();
+    bool exists = true;
+    for (int axis = 0; axis < D; ++axis) {
+      const int count = counts_[axis];
+      at[axis] = cell[axis] - (reach - 1) + 3 * number[axis];
+      if (at[axis] >= 0 && at[axis] < count) continue;
+      const bool upper = at[axis] >= count;
+      if (subdomain_.ends[static_cast<std::size_t>(2 * axis)] == End::Periodic) {
+        wrap[axis] = upper ? 1 : -1;
+        at[axis] -= wrap[axis] * count;
+      } else {
+        exists = exists && at[axis] >= -1 && at[axis] <= count;
+        at[axis] = upper ? count - 1 : 0;
+      }
+    }
+    if (exists) visit(lists_[index(at)], wrap);
+    for (int axis = 0; ++number[axis] == lists && axis < D - 1; ++axis) number[axis] = 0;
+  }
 }
 
 // A particle on a parabola may leave through the border by which it entered. The calculation starts

@@ -85,7 +85,7 @@ void EventLoop<D>::restart(RunState<D>&& saved) {
   grains_.assign(saved.grains.begin(), saved.grains.end());
   free_memory(saved.grains);
   gas_ = states_of<D>(model_, saved);
-  near_ = Neighbourhood<D>(model_, static_cast<double>(gas_.particles.size()));
+  near_ = Neighbourhood<D>(model_, grains_, static_cast<double>(gas_.particles.size()));
   set_alike();
   prediction_.set_laws();
   until_base_moves_ = saved.until_base_moves;
@@ -133,7 +133,7 @@ EventLoop<D>::EventLoop(const Model<D>& model, const Boundary<D>& boundary)
     : model_(model),
       boundary_(boundary),
       now_(0.0),
-      near_(model, 1.0),
+      near_(model, grains_, 1.0),
       prediction_(model, boundary, gas_.particles, grains_, near_),
       until_base_moves_(kNoLimit),
       fastest_(kNever) {}
@@ -149,8 +149,8 @@ static void reorder(std::vector<T>& list, const std::vector<std::uint32_t>& orde
 
 template <int D>
 void EventLoop<D>::load(const ParticleStates<D>& gas, const LargeArray<Grain>& grains,
-                        const Subdomain<D>& subdomain, TileRecord<D>& record, double start,
-                        double end) {
+                        const GridSizes& sizes, const Subdomain<D>& subdomain,
+                        TileRecord<D>& record, double start, double end) {
   constexpr std::size_t kAhead = 16;
   const std::size_t count = record.numbers.size();
   now_ = start;
@@ -167,7 +167,7 @@ void EventLoop<D>::load(const ParticleStates<D>& gas, const LargeArray<Grain>& g
   prediction_.set_laws();
   gas_.fit(model_, count);
   plans_.resize(count);
-  near_.reset(subdomain, static_cast<double>(count));
+  near_.reset(subdomain, sizes, static_cast<double>(count));
   std::vector<IntVec<D>> cells(count);
   for (std::size_t k = 0; k < count; ++k) {
     Vec<D> home;
@@ -176,7 +176,11 @@ void EventLoop<D>::load(const ParticleStates<D>& gas, const LargeArray<Grain>& g
     cells[k] = near_.cell_at(home);
   }
   std::vector<std::uint32_t> by_cell;
-  near_.fill(cells, by_cell);
+  if (grains.empty()) {
+    near_.fill(cells, by_cell);
+  } else {
+    near_.sort(cells, by_cell);
+  }
   reorder(record.numbers, by_cell);
   reorder(record.own, by_cell);
   reorder(record.images, by_cell);
@@ -184,9 +188,11 @@ void EventLoop<D>::load(const ParticleStates<D>& gas, const LargeArray<Grain>& g
   for (std::uint32_t i = 0; i < count; ++i) {
     if (i + kAhead < count) prefetch(gas.particles[record.numbers[i + kAhead]]);
     gas_.copy(i, gas, record.numbers[i]);
-    if (!grains.empty()) grains_[i] = grains[record.numbers[i]];
     gas_.particles.set_image(i, record.images[i]);
     plans_[i].cell = cells[by_cell[i]];
+    if (grains.empty()) continue;
+    grains_[i] = grains[record.numbers[i]];
+    near_.insert(i, plans_[i].cell);
   }
   queue_.order_by(record.numbers.data());
   prediction_.order_by(record.numbers.data());
@@ -289,7 +295,8 @@ void EventLoop<D>::plan_again() {
   Preparation work;
   if (plans_.empty()) {
     // After drop_plans() there is hardly any cell.
-    near_.reset(whole_box<D>(model_), static_cast<double>(gas_.particles.size()));
+    near_.reset(whole_box<D>(model_), grid_sizes<D>(model_, grains_),
+                static_cast<double>(gas_.particles.size()));
     place(work, {});
   } else if (near_.fit(plans_)) {
     for (std::size_t i = 0; i < gas_.particles.size(); ++i) put_into_cell(i);
@@ -308,7 +315,7 @@ void EventLoop<D>::note_all_strays() {
 template <int D>
 void EventLoop<D>::drop_plans() {
   free_memory(plans_);
-  near_ = Neighbourhood<D>(model_, 1.0);
+  near_ = Neighbourhood<D>(model_, grains_, 1.0);
   std::vector<Event> none;
   queue_.rebuild(none);
 }

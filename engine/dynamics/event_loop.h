@@ -60,7 +60,8 @@ class EventLoop {
   /// and plans their events up to the time `end`. Orders them by cells. The run from there adds to
   /// the record. A particle that leaves the subdomain has no more events, and its flight gets a
   /// number that no flight of the gas has.
-  void load(const ParticleStates<D>& gas, const LargeArray<Grain>& grains,
+  /// `grains` are those of the other loop, `sizes` their grid_sizes().
+  void load(const ParticleStates<D>& gas, const LargeArray<Grain>& grains, const GridSizes& sizes,
             const Subdomain<D>& subdomain, TileRecord<D>& record, double start, double end);
 
   /// Work of place(), compare() and plan() that has been done.

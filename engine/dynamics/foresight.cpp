@@ -24,6 +24,7 @@ Foresight<D>::Foresight(const Model<D>& model, const Boundary<D>& boundary,
                         const TileSizes& sizes)
     : model_(model),
       grains_(grains),
+      grid_sizes_(grid_sizes<D>(model, grains)),
       sizes_(sizes),
       halo_(sizes.halo * model.diameter),
       block_of_(particles),
@@ -250,7 +251,7 @@ void Foresight<D>::run(const ParticleStates<D>& gas, Limits& limits, Tile& tile,
   record.keeps_events = window_->keep_events;
   record.pair_collisions = record.wall_collisions = 0;
   EventLoop<D>& loop = bench.loop;
-  loop.load(gas, grains_, subdomain, record, end_, end);
+  loop.load(gas, grains_, grid_sizes_, subdomain, record, end_, end);
   if (!finish(loop, limits, tile)) return;
   tile.pair_collisions = record.pair_collisions;
   tile.wall_collisions = record.wall_collisions;

@@ -154,6 +154,7 @@ class Foresight {
 
   const Model<D>& model_;
   const LargeArray<Grain>& grains_;
+  GridSizes grid_sizes_;
   TileSizes sizes_;
   double halo_;
   double edge_;  // of a tile

@@ -49,12 +49,32 @@ static double even_radius(const Model<D>& model, double particles, double contac
   return low;
 }
 
+// Mean distance at contact, with its margin.
+static double mean_contact(double largest, const LargeArray<Grain>& grains) {
+  if (grains.empty()) return largest;
+  double sum = 0.0;
+  for (const Grain& grain : grains) sum += 2.0 * kContact * grain.radius;
+  return sum / static_cast<double>(grains.size());
+}
+
+// Radius of a region as far as neighbours of the largest size are concerned: smaller particles
+// touch them at smaller distances.
 template <int D>
-NeighbourLists<D>::NeighbourLists(const Model<D>& model, double particles)
+float NeighbourLists<D>::span_of(std::uint32_t particle) const {
+  const double radius = regions_[particle].radius;
+  if (grains_->empty()) return static_cast<float>(radius);
+  const double smaller = 0.5 * contact_ - kContact * (*grains_)[particle].radius;
+  return static_cast<float>(radius - smaller);
+}
+
+template <int D>
+NeighbourLists<D>::NeighbourLists(const Model<D>& model, const LargeArray<Grain>& grains,
+                                  double particles)
     : domain_(model.domain()),
+      grains_(&grains),
       contact_(kContact * model.diameter),
-      max_radius_(
-          std::max(kMinRadius * model.diameter, even_radius<D>(model, particles, contact_))),
+      max_radius_(std::max(kMinRadius * model.diameter,
+                           even_radius<D>(model, particles, mean_contact(contact_, grains)))),
       regions_(static_cast<std::size_t>(particles)) {
   // Two particles may touch through neighbouring periodic images only, so regions are narrower than
   // the box.
@@ -128,7 +148,7 @@ void NeighbourLists<D>::put_in_cell(std::uint32_t particle) {
     const double from_corner = region.centre[axis] - cell[axis] * widths_[axis];
     block.centres[axis][place] = static_cast<float>(from_corner);
   }
-  block.radii[place] = static_cast<float>(region.radius);
+  block.radii[place] = span_of(particle);
   block.particles[place] = particle;
 }
 
@@ -249,7 +269,7 @@ void NeighbourLists<D>::find_neighbours(std::uint32_t particle) {
       around.centre[axis][step] = Floats{} + static_cast<float>(from_corner);
     }
   }
-  around.reach = Floats{} + static_cast<float>(contact_ + region.radius);
+  around.reach = Floats{} + (static_cast<float>(contact_) + span_of(particle));
   count_ = further_count_ = 0;
   compare_cells<D - 1>(around, {}, {}, 0);
   append_near(around.near, [&](std::uint32_t k) { return around.firsts[k]; });

@@ -30,8 +30,9 @@ class NeighbourLists {
   static constexpr int kCapacity = 22;
   using List = NearList<kCapacity>;
 
-  /// Empty lists for a number of particles. Periodic sides must not be below kMinSide.
-  NeighbourLists(const Model<D>& model, double particles);
+  /// Empty lists for a number of particles. Periodic sides must not be below kMinSide. `grains` are
+  /// those of a mixture, empty if all are alike, and must outlive the lists.
+  NeighbourLists(const Model<D>& model, const LargeArray<Grain>& grains, double particles);
 
   /// Narrowest periodic side of a box, in diameters.
   static constexpr double kMinSide = 1.5;
@@ -119,9 +120,12 @@ class NeighbourLists {
   void fill(List& list);
   void mend_lists(std::uint32_t particle);
 
+  float span_of(std::uint32_t particle) const;
+
   Domain<D> domain_;
-  double contact_;     // distance of centres at contact, with a margin
-  double max_radius_;  // of regions
+  const LargeArray<Grain>* grains_;  // a pointer, so that lists can be assigned
+  double contact_;                   // largest distance of centres at contact, with a margin
+  double max_radius_;                // of regions
   IntVec<D> counts_;
   Vec<D> widths_;
   std::array<std::vector<Place>, D> steps_;  // [counts + 2] along each axis: of cells -1 ... counts

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "engine/dynamics/cell_grid.h"
 #include "engine/dynamics/neighbour_lists.h"
@@ -26,17 +27,29 @@ namespace clatter {
 template <int D>
 class Neighbourhood {
  public:
-  /// A neighbourhood for a number of particles.
-  Neighbourhood(const Model<D>& model, double particles)
-      : grid_(model,
-              has_lists(model, particles) ? 1.0 : CellGrid<D>::kCellsPerParticle * particles) {
-    if (has_lists(model, particles)) lists_.emplace(model, particles);
+  /// A neighbourhood for a number of particles. `grains` are those of a mixture, empty if all are
+  /// alike, and must outlive it.
+  Neighbourhood(const Model<D>& model, const LargeArray<Grain>& grains, double particles)
+      : grains_(&grains),
+        grid_(whole_box<D>(model), grid_sizes<D>(model, grains),
+              has_lists(model, grains, particles) ? 1.0
+                                                  : CellGrid<D>::kCellsPerParticle * particles) {
+    if (has_lists(model, grains, particles)) lists_.emplace(model, grains, particles);
   }
 
-  /// Empties the neighbourhood and lays cells for a number of particles over a subdomain.
-  void reset(const Subdomain<D>& subdomain, double particles) {
+  /// Empties the neighbourhood and lays cells for a number of particles over a subdomain. `sizes`
+  /// are those of their grid_sizes().
+  void reset(const Subdomain<D>& subdomain, const GridSizes& sizes, double particles) {
     lists_.reset();
-    grid_.reset(subdomain, CellGrid<D>::kCellsPerParticle * particles);
+    grid_.reset(subdomain, sizes, CellGrid<D>::kCellsPerParticle * particles);
+  }
+
+  /// Whether a particle reads several lists, see visit_wide().
+  bool is_wide(std::uint32_t particle) const { return reach_of(particle) > 1; }
+  /// As CellGrid::visit_wide. For particles that read several lists.
+  template <typename Visit>
+  void visit_wide(std::uint32_t particle, const IntVec<D>& cell, const Visit& visit) const {
+    grid_.visit_wide(cell, reach_of(particle), visit);
   }
 
   /// The largest and the least capacity of a list. Lists of particles exist in 3D only.
@@ -50,15 +63,23 @@ class Neighbourhood {
     if (by_particle()) {
       lists_->place(particle, position);
     } else {
-      grid_.insert(particle, cell);
+      grid_.insert(particle, cell, reach_of(particle));
     }
     return cell;
   }
   /// The cell of a position. For cells only, not for lists of particles.
   IntVec<D> cell_at(const Vec<D>& position) const { return grid_.cell_at(position); }
-  /// As CellGrid::fill. For cells only.
+  /// As CellGrid::fill, for particles that are alike. For cells only.
   void fill(const std::vector<IntVec<D>>& cells, std::vector<std::uint32_t>& order) {
     grid_.fill(cells, order);
+  }
+  /// As CellGrid::sort. For cells only.
+  void sort(const std::vector<IntVec<D>>& cells, std::vector<std::uint32_t>& order) const {
+    grid_.sort(cells, order);
+  }
+  /// Puts a particle into a cell. For cells only.
+  void insert(std::uint32_t particle, const IntVec<D>& cell) {
+    grid_.insert(particle, cell, reach_of(particle));
   }
   /// Adapts the number of cells to the crowding, from the plans of all particles. Returns whether
   /// the grid is now empty.
@@ -116,12 +137,14 @@ class Neighbourhood {
     return !by_particle() && grid_.leaves_subdomain(cell, border);
   }
   /// Removes a particle from its cell.
-  void remove(std::uint32_t particle, const IntVec<D>& cell) { grid_.remove(particle, cell); }
+  void remove(std::uint32_t particle, const IntVec<D>& cell) {
+    grid_.remove(particle, cell, reach_of(particle));
+  }
   /// Moves a particle to its next cell or region. Returns its shift to another periodic image, in
   /// box lengths.
   Vec<D> leave(const Model<D>& model, const ParticleArray<D>& particles, std::uint32_t number,
                IntVec<D>& cell, std::uint32_t border, double now) {
-    if (!by_particle()) return grid_.leave(number, cell, border);
+    if (!by_particle()) return grid_.leave(number, cell, border, reach_of(number));
     return lists_->leave(model, particles[number].flight, particles.image(number), number, now);
   }
 
@@ -154,17 +177,31 @@ class Neighbourhood {
   // Measured for N = 10,976: from this volume fraction on, lists of particles are faster.
   static constexpr double kDense = 0.43;
   // Whether the particles have lists of their own.
-  static bool has_lists(const Model<D>& model, double particles) {
+  static bool has_lists(const Model<D>& model, const LargeArray<Grain>& grains, double particles) {
     for (int axis = 0; axis < D; ++axis) {
       const double narrowest = NeighbourLists<D>::kMinSide * model.diameter;
       if (model.periodic(axis) && model.box[axis] < narrowest) return false;
     }
-    const double density = particles * std::pow(model.diameter, D) / model.box.prod();
-    return D == 3 && packing_fraction(D, density) > kDense;
+    if (D == 2) return false;
+    double volume = particles * std::pow(model.diameter, D);  // of the cubes about all
+    if (!grains.empty()) {
+      constexpr double kAlike = 2.0;  // ratio of the largest to the least diameter
+      volume = 0.0;
+      for (const Grain& grain : grains) {
+        if (kAlike * 2.0 * grain.radius < model.diameter) return false;
+        volume += std::pow(2.0 * grain.radius, D);
+      }
+    }
+    return packing_fraction(D, volume / model.box.prod()) > kDense;
   }
   bool by_particle() const { return D == 3 && lists_.has_value(); }
 
-  CellGrid<D> grid_;  // of one cell beside lists of particles
+  int reach_of(std::uint32_t particle) const {
+    return grains_->empty() ? 1 : grid_.reach_of(2.0 * (*grains_)[particle].radius);
+  }
+
+  const LargeArray<Grain>* grains_;  // a pointer, so that a neighbourhood can be assigned
+  CellGrid<D> grid_;                 // of one cell beside lists of particles
   std::optional<NeighbourLists<D>> lists_;
 };
 

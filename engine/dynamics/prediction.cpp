@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <cstring>
 
 #include "engine/dynamics/contact_kernel.h"
@@ -150,6 +151,7 @@ bool Prediction<D>::look_at_plain_lists(const Requests<kParticles>& requests) co
   std::array<std::uint32_t, kParticles> particles;
   std::array<Candidates<D>, kParticles> near;
   for (std::size_t k = 0; k < kParticles; ++k) {
+    if (kMixed && near_.is_wide(requests[k].particle)) return false;
     const NearListView list = near_.near(requests[k].particle, requests[k].plan->cell);
     if (list.wraps || list.next != NearListView::kNone) return false;
     particles[k] = requests[k].particle;
@@ -170,10 +172,75 @@ bool Prediction<D>::look_at_plain_lists(const Requests<kParticles>& requests) co
   return unique;
 }
 
-// Any lists. The first lists of all particles are searched together, then their continuations.
+// Any lists.
 template <int D>
 template <bool kFalling, bool kMixed, std::size_t kParticles>
 void Prediction<D>::look_at_lists(const Requests<kParticles>& requests) const {
+  if constexpr (kMixed) {
+    bool any_wide = false;
+    for (const Request& request : requests) any_wide = any_wide || near_.is_wide(request.particle);
+    if (any_wide) {
+      for (const Request& request : requests) {
+        if (near_.is_wide(request.particle)) {
+          look_at_wide_lists<kFalling>(request);
+        } else {
+          look_at_first_lists<kFalling, true, 1>({request});
+        }
+      }
+      return;
+    }
+  }
+  look_at_first_lists<kFalling, kMixed>(requests);
+}
+
+// Appends the neighbours of a list whose cell is in another image. A neighbour two boxes away
+// cannot touch.
+template <int D>
+static void take_image(const NearListView& list, const IntVec<D>& image, Candidates<D>& near) {
+  near.size = 0;
+  for (int k = 0; k < list.count; ++k) {
+    Neighbour neighbour = particle_of<D>(list.neighbours[k]);
+    bool is_near = true;
+    for (int axis = 0; axis < D; ++axis) {
+      const int wrap = wrap_of<D>(list.neighbours[k], axis) + image[axis];
+      is_near = is_near && std::abs(wrap) <= 1;
+      neighbour |= (static_cast<Neighbour>(wrap) & 3u) << (kParticleBits<D> + 2 * axis);
+    }
+    if (is_near) near.neighbours[near.size++] = neighbour;
+  }
+}
+
+// The lists of a large particle among small ones.
+template <int D>
+template <bool kFalling>
+void Prediction<D>::look_at_wide_lists(const Request& request) const {
+  const auto [particle, plan] = request;
+  wide_.clear();
+  near_.visit_wide(particle, plan->cell, [this](const auto& list, const IntVec<D>& image) {
+    wide_.emplace_back(NearListView(list), image);
+  });
+  plan->time = kNever;
+  for (const auto& [first_list, image] : wide_) {
+    for (NearListView list = first_list;; list = near_.next(list)) {
+      std::array<Candidates<D>, 1> near;
+      if (!image.isZero()) {
+        take_image<D>(list, image, near[0]);
+      } else if (list.capacity == kContinuedCapacity) {
+        take<kContinuedCapacity>(list, near[0]);
+      } else {
+        take<Neighbourhood<D>::kCapacity>(list, near[0]);
+      }
+      const FirstContact first = first_of<kFalling, true, true, 1>({particle}, near)[0];
+      offer_first(particle, near[0], first, *plan);
+      if (list.next == NearListView::kNone) break;
+    }
+  }
+}
+
+// The first lists of all particles are searched together, then their continuations.
+template <int D>
+template <bool kFalling, bool kMixed, std::size_t kParticles>
+void Prediction<D>::look_at_first_lists(const Requests<kParticles>& requests) const {
   std::array<std::uint32_t, kParticles> particles;
   std::array<Candidates<D>, kParticles> near;
   for (std::size_t k = 0; k < kParticles; ++k) {

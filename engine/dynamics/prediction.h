@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "engine/dynamics/boundary.h"
 #include "engine/dynamics/event.h"
@@ -101,6 +103,11 @@ class Prediction {
       const Requests<kParticles>& requests) const;
   template <bool kFalling, bool kMixed, std::size_t kParticles>
   [[gnu::always_inline]] inline void look_at_lists(const Requests<kParticles>& requests) const;
+  template <bool kFalling, bool kMixed, std::size_t kParticles>
+  [[gnu::always_inline]] inline void look_at_first_lists(
+      const Requests<kParticles>& requests) const;
+  template <bool kFalling>
+  [[gnu::always_inline]] inline void look_at_wide_lists(const Request& request) const;
   void offer_first(std::uint32_t particle, const Candidates<D>& near, const FirstContact& first,
                    Plan<D>& plan) const;
   [[gnu::always_inline]] inline void offer_exit(const Exit& exit, Plan<D>& plan) const;
@@ -127,6 +134,8 @@ class Prediction {
   const Neighbourhood<D>& near_;
   const std::uint32_t* numbers_ = nullptr;
   bool walled_;  // whether there are walls
+  // Lists of a particle with a reach above 1, and the images of their cells.
+  mutable std::vector<std::pair<NearListView, IntVec<D>>> wide_;
   Planners planners_;
 };
 

@@ -363,8 +363,7 @@ struct FirstWindow {
 FirstWindow first_window(const State<2>& state, double halo) {
   const Model<2> model = periodic_box(400.0, 80.0);
   const Boundary<2> boundary(model, Clock());
-  const LargeArray<Grain> alike;
-  Foresight<2> foresight(model, boundary, alike, state.positions.size(), 2,
+  Foresight<2> foresight(model, boundary, kAlike, state.positions.size(), 2,
                          {.particles = 1000.0, .collisions = 1.0, .halo = halo});
   REQUIRE(foresight.tiles() == 4);
   const EventLoop<2> loop(model, boundary, Simulation<2>(model, state).save());

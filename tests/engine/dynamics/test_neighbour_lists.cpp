@@ -28,7 +28,7 @@ struct Ghosts {
       : model(laws),
         flights(std::move(ghosts)),
         images(flights.size(), Vec<D>::Zero()),
-        lists(model, static_cast<double>(flights.size())),
+        lists(model, kAlike, static_cast<double>(flights.size())),
         exits(flights.size()) {
     for (std::uint32_t i = 0; i < flights.size(); ++i) lists.place(i, flights[i].r);
     for (std::uint32_t i = 0; i < flights.size(); ++i) plan(i);
@@ -147,7 +147,7 @@ std::vector<Flight<3>> lattice(int side, double spacing) {
 // Radius of the regions of an even gas: the distance of a particle at the middle of the box from
 // its end, less that of its region.
 double radius_of(const Model<3>& model, double particles) {
-  NeighbourLists<3> lists(model, particles);
+  NeighbourLists<3> lists(model, kAlike, particles);
   lists.place(0, 0.5 * model.box);
   return 0.5 * model.box.x() - lists.distance_from_end(0, 0, false);
 }
@@ -188,7 +188,7 @@ TEST_CASE("NeighbourLists: of two neighbours each is listed by the other, at any
   int met = 0, unequal = 0;
   constexpr int kPairs = 400000;
   for (int i = 0; i < kPairs; i += 1000) {
-    NeighbourLists<3> lists(model, 10000.0);
+    NeighbourLists<3> lists(model, kAlike, 10000.0);
     for (std::uint32_t k = 0; k < 1000; k += 2) {
       // Positions along x of one pair for each row of the box.
       const Vec<3> r(5.0 + 10.0 * random.uniform(), 30.0 * random.uniform(),
@@ -230,7 +230,7 @@ TEST_CASE("NeighbourLists: lists are short, also in a cluster") {
 TEST_CASE("Neighbourhood: a dilute gas in a wide, flat box needs no cells of a dense one") {
   Model<3> model;
   model.box = {3.0, 1e6, 1e6};
-  Neighbourhood<3> near(model, 100.0);
+  Neighbourhood<3> near(model, kAlike, 100.0);
   CHECK(near.place(7, {1.0, 2.0, 3.0}).minCoeff() >= 0);
 }
 

@@ -12,6 +12,7 @@
 #include "engine/physics/contact.h"
 #include "engine/physics/random.h"
 #include "engine/run/scheduled_run.h"
+#include "tests/engine/support/gas.h"
 #include "tests/support/scenes.h"
 
 using namespace clatter;
@@ -47,7 +48,7 @@ struct Planned {
     clock.emplace(simulation->time() - now);
     particles = simulation->particles();
     plans.resize(particles.size());
-    near.emplace(model, static_cast<double>(particles.size()));
+    near.emplace(model, kAlike, static_cast<double>(particles.size()));
     for (std::uint32_t i = 0; i < particles.size(); ++i) {
       const Vec2 r = particles[i].flight.at(now, model.gravity);
       const Vec2 image = model.domain().image_at(r);
@@ -55,11 +56,10 @@ struct Planned {
       plans[i].cell = near->place(i, r - image.cwiseProduct(model.box));
     }
     boundary.emplace(model, *clock);
-    prediction.emplace(model, *boundary, particles, alike, *near);
+    prediction.emplace(model, *boundary, particles, kAlike, *near);
     for (std::uint32_t i = 0; i < particles.size(); ++i) prediction->plan({i, &plans[i]}, now);
   }
 
-  const LargeArray<Grain> alike = {};
   Model<2> model;
   double now;
   std::optional<Clock> clock;

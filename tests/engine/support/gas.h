@@ -9,6 +9,9 @@
 
 namespace clatter::testing {
 
+/// The grains of a gas of particles that are alike.
+inline const LargeArray<Grain> kAlike;
+
 /// Particles at random positions in equal plots of the box, with Gaussian velocities of temperature
 /// 1. Without walls the momentum is zero.
 template <int D>
