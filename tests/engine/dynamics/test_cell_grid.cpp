@@ -95,13 +95,13 @@ std::optional<Guest> stepped(const Model<2>& model, const CellGrid<2>& grid, Gue
 // number of crossed borders.
 template <typename May>
 int wander(const Model<2>& model, CellGrid<2>& grid, std::uint32_t particle, Guest& guest, int most,
-           Random& random, const May& may) {
+           Random& random, const May& may, int reach = 1) {
   int crossed = 0;
   for (int k = 0; k < most; ++k) {
     const int axis = static_cast<int>(random.below(2)), step = random.below(2) ? 1 : -1;
     const auto next = stepped(model, grid, guest, axis, step);
     if (!next || !may(*next)) continue;
-    grid.move(particle, guest.cell, axis, step);
+    grid.move(particle, guest.cell, axis, step, reach);
     guest = *next;
     ++crossed;
   }
@@ -237,6 +237,69 @@ TEST_CASE("CellGrid: every image within one diameter is found exactly once") {
       }
     }
   }
+  CHECK(overhanging > 10000);
+}
+
+// The images that a particle of any reach finds.
+static std::set<Image> found(const CellGrid<2>& grid, const IntVec<2>& cell, int reach) {
+  if (reach == 1) {
+    const std::multiset<Image> images = near(grid, cell);
+    return {images.begin(), images.end()};
+  }
+  std::set<Image> images;
+  grid.visit_wide(cell, reach, [&](const CellGrid<2>::List& list, const IntVec<2>& of_cell) {
+    grid.continuations().visit(list, [&](std::uint32_t particle, const Vec2& wrap) {
+      const IntVec<2> sum = wrap.cast<int>() + of_cell;
+      images.insert({particle, sum.x(), sum.y()});
+    });
+  });
+  return images;
+}
+
+TEST_CASE("CellGrid: every image within contact is found among particles of any sizes") {
+  Random random(64, Stream::Placement, 0, 0);
+  int wide = 0, overhanging = 0;
+  for (int i = 0; i < 4000; ++i) {
+    Model<2> model = random_box(random);
+    if (random.below(2)) model.box *= 3.0;
+    const std::uint32_t count = 2 + static_cast<std::uint32_t>(random.below(60));
+    const double ratio = 1.0 + 15.0 * random.uniform();
+    std::vector<double> diameters(count, 1.0);
+    for (double& diameter : diameters) {
+      const double between = random.uniform();
+      diameter = std::pow(ratio, random.below(3) ? -1.0 : -between);
+    }
+    diameters.front() = 1.0;
+    const double base = diameters[random.below(count)];
+    CellGrid<2> grid(whole_box<2>(model), {base, 1.0}, 4.0 * count * random.uniform());
+    std::vector<Guest> guests;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const Vec2 r = random_place(model, grid, random);
+      const int reach = grid.reach_of(diameters[k]);
+      guests.push_back({grid.cell_at(r), r});
+      grid.insert(k, guests[k].cell, reach);
+      wide += reach > 1;
+      overhanging += wander(
+          model, grid, k, guests[k], 4, random,
+          [&](const Guest& there) { return belongs(grid, there); }, reach);
+    }
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const std::set<Image> images = found(grid, guests[k].cell, grid.reach_of(diameters[k]));
+      for (std::uint32_t j = 0; j < count; ++j) {
+        if (j == k) continue;
+        for (int kx = -2; kx <= 2; ++kx) {
+          for (int ky = -2; ky <= 2; ++ky) {
+            if ((kx && !model.periodic(0)) || (ky && !model.periodic(1))) continue;
+            const Vec2 x = guests[k].r - guests[j].r - Vec2(kx * model.box.x(), ky * model.box.y());
+            if (x.norm() > 0.5 * (diameters[k] + diameters[j])) continue;
+            INFO("box " << model.box.transpose() << " image " << kx << " " << ky);
+            REQUIRE(images.count({j, kx, ky}) == 1);
+          }
+        }
+      }
+    }
+  }
+  CHECK(wide > 20000);
   CHECK(overhanging > 10000);
 }
 

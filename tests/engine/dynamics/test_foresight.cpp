@@ -149,9 +149,7 @@ Outcome outcome_of(Simulation<D>& simulation, bool observed, int halts, std::uin
 
 // Runs a scene as a whole, and in tiles of random sizes on different numbers of threads.
 template <int D>
-void compare_ways(const Scene& scene, bool observed) {
-  const Model<D> model = model_of<D>(scene, kForesightSeed);
-  const State<D> start = start_state<D>(scene, kForesightSeed);
+void compare_ways(const Model<D>& model, const State<D>& start, bool observed) {
   const auto count = static_cast<std::uint64_t>(start.positions.size());
   constexpr int kHalts = 6;
   Simulation<D> whole(model, start);
@@ -177,7 +175,27 @@ void compare_ways(const Scene& scene, bool observed) {
   CHECK(redone > 0);
 }
 
+template <int D>
+void compare_ways(const Scene& scene, bool observed) {
+  compare_ways(model_of<D>(scene, kForesightSeed), start_state<D>(scene, kForesightSeed), observed);
+}
+
 }  // namespace
+
+TEST_CASE("Foresight: tiles give the bits of the whole gas for mixtures") {
+  for (const double ratio : {1.4, 5.0}) {
+    CAPTURE(ratio);
+    for (const char* const text : {kScenes[1], kScenes[2], kScenes[4]}) {
+      CAPTURE(text);
+      const Scene scene = parse_scene(text, "a scene");
+      const Model<2> model = with_species(model_of<2>(scene, kForesightSeed));
+      compare_ways<2>(model, mixed(model, start_state<2>(scene, kForesightSeed), ratio), true);
+    }
+    const Scene spheres = parse_scene(kScenes[7], "a scene");
+    const Model<3> model = with_species(model_of<3>(spheres, kForesightSeed));
+    compare_ways<3>(model, mixed(model, start_state<3>(spheres, kForesightSeed), ratio), false);
+  }
+}
 
 TEST_CASE("Foresight: tiles give the bits of the whole gas, on any number of threads") {
   for (const char* const text : kScenes) {
