@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <type_traits>
 
 namespace clatter {
 
@@ -154,10 +155,22 @@ int CellGrid<D>::wide_reach(double diameter) const {
   return Layout<D>{counts_, widths_, overhangs_}.reach(base_, diameter);
 }
 
+// Calls act(reach) with a constant for the usual reach, so that loops over lists are unrolled.
+template <class Act>
+[[gnu::always_inline]] static inline void with_reach(int reach, const Act& act) {
+  if (reach == 1) [[likely]] {
+    act(std::integral_constant<int, 1>());
+  } else {
+    act(reach);
+  }
+}
+
 template <int D>
 void CellGrid<D>::insert(std::uint32_t particle, const IntVec<D>& cell, int reach) {
-  visit_lists<D - 1>(about(cell, reach), 0, 0, [&](std::uint32_t list, Neighbour wrap) {
-    continuations_.put_on(lists_[list], particle | wrap);
+  with_reach(reach, [&](auto reach) {
+    visit_lists<D - 1>(about(cell, reach), 0, 0, [&](std::uint32_t list, Neighbour wrap) {
+      continuations_.put_on(lists_[list], particle | wrap);
+    });
   });
 }
 
@@ -229,8 +242,10 @@ void CellGrid<D>::fill_by_cells(List& list, const IntVec<D>& cell,
 
 template <int D>
 void CellGrid<D>::remove(std::uint32_t particle, const IntVec<D>& cell, int reach) {
-  visit_lists<D - 1>(about(cell, reach), 0, 0, [&](std::uint32_t list, Neighbour wrap) {
-    continuations_.take_off(lists_[list], particle | wrap);
+  with_reach(reach, [&](auto reach) {
+    visit_lists<D - 1>(about(cell, reach), 0, 0, [&](std::uint32_t list, Neighbour wrap) {
+      continuations_.take_off(lists_[list], particle | wrap);
+    });
   });
 }
 
@@ -244,14 +259,16 @@ void CellGrid<D>::move(std::uint32_t particle, const IntVec<D>& cell, int axis, 
     insert(particle, neighbour(cell, axis, step), reach);
     return;
   }
-  visit_lists<D - 1>(row(cell, axis, cell[axis] - reach * step, reach), 0, 0,
-                     [&](std::uint32_t list, Neighbour wrap) {
-                       continuations_.take_off(lists_[list], particle | wrap);
-                     });
-  visit_lists<D - 1>(row(cell, axis, next + reach * step, reach), 0, 0,
-                     [&](std::uint32_t list, Neighbour wrap) {
-                       continuations_.put_on(lists_[list], particle | wrap);
-                     });
+  with_reach(reach, [&](auto reach) {
+    visit_lists<D - 1>(row(cell, axis, cell[axis] - reach * step, reach), 0, 0,
+                       [&](std::uint32_t list, Neighbour wrap) {
+                         continuations_.take_off(lists_[list], particle | wrap);
+                       });
+    visit_lists<D - 1>(row(cell, axis, next + reach * step, reach), 0, 0,
+                       [&](std::uint32_t list, Neighbour wrap) {
+                         continuations_.put_on(lists_[list], particle | wrap);
+                       });
+  });
 }
 
 template <int D>

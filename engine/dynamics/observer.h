@@ -27,7 +27,7 @@ struct ParticleChange {
   Vec<D> velocity_after() const { return velocity + gain.momentum / grain.mass; }
   /// Gain in kinetic energy, of motion and of spin, without the rounding of a difference of two
   /// squares.
-  double energy() const {
+  [[gnu::always_inline]] double energy() const {
     return 0.5 * gain.momentum.dot(gain.momentum / grain.mass + 2.0 * velocity) +
            0.5 * grain.moment_of_inertia() * gain.spin.dot(gain.spin + 2.0 * spin);
   }

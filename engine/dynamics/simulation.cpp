@@ -494,12 +494,18 @@ std::uint64_t Simulation<D>::state_hash() const {
 }
 
 template <int D>
+double Simulation<D>::mass() const {
+  double mass = 0.0;
+  for (const Grain& grain : loop_.grains()) mass += grain.mass;
+  return is_mixture() ? mass : static_cast<double>(particles().size());
+}
+
+template <int D>
 double Simulation<D>::kinetic_energy() const {
   double twice = 0.0;
-  for (std::uint32_t i = 0; i < particles().size(); ++i) {
-    const Flight<D>& flight = particles()[i].flight;
-    twice += grain(i).mass * flight.velocity_at(base_time(), model_.gravity).squaredNorm();
-  }
+  for_masses([&](const Flight<D>& flight, double mass) {
+    twice += mass * flight.velocity_at(base_time(), model_.gravity).squaredNorm();
+  });
   return 0.5 * twice;
 }
 

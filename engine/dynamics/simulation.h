@@ -127,6 +127,18 @@ class Simulation {
   bool is_mixture() const { return !loop_.grains().empty(); }
   /// What a particle is.
   const Grain& grain(std::uint32_t number) const { return loop_.grain(number); }
+  /// Calls visit(flight, mass) for each particle. The mass is a double or a UnitMass.
+  template <class Visit>
+  void for_masses(const Visit& visit) const {
+    if (is_mixture()) {
+      const Grain* grain = loop_.grains().data();
+      for (const Particle<D>& particle : particles()) visit(particle.flight, (grain++)->mass);
+    } else {
+      for (const Particle<D>& particle : particles()) visit(particle.flight, UnitMass());
+    }
+  }
+  /// Mass of all particles.
+  double mass() const;
   /// Kinetic energy of all particles' centres at time().
   double kinetic_energy() const;
   /// T = (1/DN) sum m v^2 at time(); 0 without particles.

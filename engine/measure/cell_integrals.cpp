@@ -69,12 +69,13 @@ void CellIntegrals<D>::spread(const Vec<D>& from, const Vec<D>& along, Visit&& v
 // velocity changes uniformly by `change` and is `v` half-way. The mean of v_k v_l then is v_k v_l +
 // change_k change_l / 12; products of three factors follow in the same way.
 template <int D>
-typename CellIntegrals<D>::Rates CellIntegrals<D>::rates_of(const Grain& grain, const Vec<D>& v,
-                                                            const Vec<D>& change,
+template <class Mass>
+typename CellIntegrals<D>::Rates CellIntegrals<D>::rates_of(Mass mass, const Grain& grain,
+                                                            const Vec<D>& v, const Vec<D>& change,
                                                             const Spin<D>& spin) const {
   const MomentLayout<D>& at = layout_;
   Rates rates;
-  const double m = grain.mass;
+  const double m = mass;
   rates[at.count] = 1.0;
   if (at.mass != at.count) rates[at.mass] = m;
   if (at.momentum >= 0) {
@@ -96,6 +97,7 @@ typename CellIntegrals<D>::Rates CellIntegrals<D>::rates_of(const Grain& grain, 
   if (at.spin >= 0) {
     for (int k = 0; k < kSpinSize<D>; ++k) rates[at.spin + k] = spin[k];
   }
+  if (at.spin_energy < 0 && at.energy_flux < 0) return rates;
   const double spin_energy = 0.5 * grain.moment_of_inertia() * spin.squaredNorm();
   if (at.spin_energy >= 0) rates[at.spin_energy] = spin_energy;
   if (at.energy_flux >= 0) {
@@ -104,6 +106,15 @@ typename CellIntegrals<D>::Rates CellIntegrals<D>::rates_of(const Grain& grain, 
     for (int k = 0; k < D; ++k) rates[at.energy_flux + k] = energy * v[k] + mixed * change[k];
   }
   return rates;
+}
+
+template <int D>
+typename CellIntegrals<D>::Rates CellIntegrals<D>::rates_of(const Grain& grain, const Vec<D>& v,
+                                                            const Vec<D>& change,
+                                                            const Spin<D>& spin) const {
+  const bool alike = layout_.mass == layout_.count;
+  return alike ? rates_of(UnitMass(), grain, v, change, spin)
+               : rates_of(grain.mass, grain, v, change, spin);
 }
 
 template <int D>

@@ -94,6 +94,9 @@ class CellIntegrals : public Observer<D> {
 
   Rates rates_of(const Grain& grain, const Vec<D>& v, const Vec<D>& change,
                  const Spin<D>& spin) const;
+  template <class Mass>
+  Rates rates_of(Mass mass, const Grain& grain, const Vec<D>& v, const Vec<D>& change,
+                 const Spin<D>& spin) const;
   void add_flight(const Grain& grain, const Flight<D>& flight, const Spin<D>& spin, double end);
   void add_fall(const Grain& grain, const Flight<D>& flight, const Spin<D>& spin, double begin,
                 double end);

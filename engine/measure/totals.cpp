@@ -18,9 +18,8 @@ Totals<D>::Totals(const Simulation<D>& simulation)
 template <int D>
 double Totals<D>::energy_of_starts() const {
   double twice = 0.0;
-  for (std::uint32_t i = 0; i < simulation_.particles().size(); ++i) {
-    twice += simulation_.grain(i).mass * simulation_.particles()[i].flight.v.squaredNorm();
-  }
+  simulation_.for_masses(
+      [&](const Flight<D>& flight, double mass) { twice += mass * flight.v.squaredNorm(); });
   return 0.5 * twice + simulation_.spin_energy();
 }
 
@@ -36,18 +35,17 @@ void Totals<D>::change_inertia(double before, double after) {
 
 template <int D>
 void Totals<D>::take_stock() {
-  mass_ = 0.0;
+  mass_ = simulation_.mass();
   squares_.setZero();
   momentum_.setZero();
   spin_squares_ = 2.0 * simulation_.spin_energy();
-  for (std::uint32_t i = 0; i < simulation_.particles().size(); ++i) {
-    const double m = simulation_.grain(i).mass;
-    const Flight<D>& flight = simulation_.particles()[i].flight;
-    const Vec<D> v = flight.velocity_at(integrated_to_, simulation_.model().gravity);
-    mass_ += m;
+  const Vec<D>& gravity = simulation_.model().gravity;
+  simulation_.for_masses([&](const Flight<D>& flight, auto mass) {
+    const double m = mass;
+    const Vec<D> v = flight.velocity_at(integrated_to_, gravity);
     squares_ += m * v.cwiseAbs2();
     momentum_ += m * v;
-  }
+  });
 }
 
 // Between events sum m v_k^2 is a parabola in time, because all particles have the same
@@ -105,10 +103,9 @@ template <int D>
 void Totals<D>::end_flights() {
   const Vec<D>& gravity = simulation_.model().gravity;
   const double now = simulation_.base_time();
-  for (std::uint32_t i = 0; i < simulation_.particles().size(); ++i) {
-    const Flight<D>& flight = simulation_.particles()[i].flight;
-    book_work(simulation_.grain(i).mass, flight.at(now, gravity) - flight.r);
-  }
+  simulation_.for_masses([&](const Flight<D>& flight, double mass) {
+    book_work(mass, flight.at(now, gravity) - flight.r);
+  });
 }
 
 template <int D>
@@ -155,13 +152,12 @@ WindowTotals<D> Totals<D>::close_window() {
   integrate_to(now);
   const double count = static_cast<double>(simulation_.particles().size());
   window_.duration = now - window_start_;
-  for (std::uint32_t i = 0; i < simulation_.particles().size(); ++i) {
-    const Flight<D>& flight = simulation_.particles()[i].flight;
-    const Vec<D> squares =
-        simulation_.grain(i).mass * flight.velocity_at(now, model.gravity).cwiseAbs2();
+  simulation_.for_masses([&](const Flight<D>& flight, auto mass) {
+    const double m = mass;
+    const Vec<D> squares = m * flight.velocity_at(now, model.gravity).cwiseAbs2();
     window_.second_moment += squares / count;
     window_.fourth_moment += squares.cwiseAbs2() / count;
-  }
+  });
   if (count > 0.0 && window_.duration > 0.0) {
     window_.temperature = integral_ / (window_.duration * count);
     window_.spin_temperature = spin_integral_ / (window_.duration * count * kSpinSize<D>);

@@ -18,4 +18,9 @@ struct Grain {
   bool operator==(const Grain&) const = default;
 };
 
+/// The mass 1 of particles that are alike, as a constant: products with it cost nothing.
+struct UnitMass {
+  constexpr operator double() const { return 1.0; }
+};
+
 }  // namespace clatter
