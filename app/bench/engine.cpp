@@ -195,7 +195,9 @@ std::vector<BenchSpecies> parse_species(const std::string& text) {
   constexpr double kLeast = 1e-3, kLargest = 1e3, kLeastMass = 1e-9, kLargestMass = 1e9;
   std::vector<BenchSpecies> species;
   std::istringstream parts(text);
-  for (std::string part; std::getline(parts, part, ',');) {
+  std::string part;
+  do {
+    std::getline(parts, part, ',');
     std::istringstream numbers(part);
     numbers.imbue(std::locale::classic());
     BenchSpecies s;
@@ -209,7 +211,7 @@ std::vector<BenchSpecies> parse_species(const std::string& text) {
                       "write COUNT:DIAMETER:MASS for each species, with commas between them");
     }
     species.push_back(s);
-  }
+  } while (!parts.eof());
   return species;
 }
 

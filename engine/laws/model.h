@@ -41,7 +41,7 @@ struct BulkDrive {
 /// Contact law of particles of two species.
 struct PairLaw {
   double restitution = 1.0;  ///< alpha
-  Roughness roughness;
+  Roughness roughness = {};
 
   /// The law with its friction and tangential restitution in force.
   ContactLaw contact() const {

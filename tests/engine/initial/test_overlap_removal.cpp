@@ -1,0 +1,84 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "engine/initial/mixture_state.h"
+#include "engine/initial/overlap_removal.h"
+#include "tests/engine/support/gas.h"
+#include "tests/support/dimensions.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+
+namespace {
+
+/// A box, periodic or closed, that particles of these radii fill to a fraction.
+template <int D>
+Model<D> box_for(const std::vector<Grain>& grains, double fraction, bool closed) {
+  Model<D> model;
+  model.diameter = 0.0;
+  double volume = 0.0;
+  for (const Grain& grain : grains) {
+    model.diameter = std::max(model.diameter, 2.0 * grain.radius);
+    volume +=
+        (D == 2 ? std::numbers::pi : 4.0 / 3.0 * std::numbers::pi) * std::pow(grain.radius, D);
+  }
+  model.box.setConstant(std::pow(volume / fraction, 1.0 / D));
+  if (closed) model.walls.fill(Wall{});
+  return model;
+}
+
+/// Sizes that are spread evenly, and few large particles among small ones.
+std::vector<Grain> polydisperse(int count) {
+  std::vector<Grain> grains;
+  for (int i = 0; i < count; ++i) {
+    const double radius = 0.25 + 0.5 * (i + 0.5) / count;
+    grains.push_back({.radius = radius, .mass = radius});
+  }
+  return grains;
+}
+std::vector<Grain> large_among_small(int count) {
+  std::vector<Grain> grains(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; i += 50) grains[static_cast<std::size_t>(i)].radius = 3.0;
+  return grains;
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("Overlap removal: dense particles of any sizes find places in the box",
+                   Dimension, Plane, Space) {
+  constexpr int D = Dimension::value;
+  const double fraction = D == 2 ? 0.75 : 0.55;
+  for (const bool closed : {false, true}) {
+    CAPTURE(closed);
+    for (const std::vector<Grain>& grains : {polydisperse(400), large_among_small(400)}) {
+      const Model<D> model = box_for<D>(grains, closed ? 0.7 * fraction : fraction, closed);
+      const State<D> state = mixture_state<D>(model, grains, 2.0, 5);
+      REQUIRE(state.positions.size() == grains.size());
+      CHECK(finite_and_inside(model, state));
+      CHECK(brute_force_overlap(model, state) == 0.0);
+      double energy = 0.0;
+      Vec<D> momentum = Vec<D>::Zero();
+      std::vector<double> radii, asked;
+      for (std::size_t i = 0; i < state.grains.size(); ++i) {
+        energy += state.grains[i].mass * state.velocities[i].squaredNorm();
+        momentum += state.grains[i].mass * state.velocities[i];
+        radii.push_back(state.grains[i].radius);
+        asked.push_back(grains[i].radius);
+      }
+      CHECK(energy == doctest::Approx(2.0 * D * 400.0).epsilon(1e-12));
+      CHECK(momentum.norm() < 1e-10);
+      std::ranges::sort(radii);
+      std::ranges::sort(asked);
+      CHECK(radii == asked);
+    }
+  }
+}
+
+TEST_CASE("Overlap removal: particles without room get no places") {
+  const std::vector<Grain> grains(100);
+  CHECK(mixture_state<2>(box_for<2>(grains, 0.95, false), grains, 1.0, 6).positions.empty());
+}

@@ -1,0 +1,188 @@
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "engine/dynamics/simulation.h"
+#include "engine/initial/mixture_state.h"
+#include "engine/measure/totals.h"
+#include "tests/support/dimensions.h"
+#include "tests/support/statistics.h"
+
+using namespace clatter;
+using namespace clatter::testing;
+
+namespace {
+
+/// Collisions of each pair of species: 11, 12 or 21, 22.
+template <int D>
+class PairCounts : public Observer<D> {
+ public:
+  void on_collision(const PairCollision<D>& collision) override {
+    ++counts[collision.particles[0].grain.species + collision.particles[1].grain.species];
+  }
+  std::array<double, 3> counts{};
+};
+
+/// Two species, the second of twice the diameter and the same material, in a periodic box.
+template <int D>
+struct Binary {
+  std::array<int, 2> counts;
+  double fraction;
+  Model<D> model;
+  std::vector<Grain> grains;
+
+  Binary(int small, int large, double fraction_of_box)
+      : counts{small, large}, fraction(fraction_of_box) {
+    const double ball = D == 2 ? 0.25 * std::numbers::pi : std::numbers::pi / 6.0;
+    const double volume = ball * (small + large * std::pow(2.0, D));
+    model.box.setConstant(std::pow(volume / fraction, 1.0 / D));
+    model.diameter = 2.0;
+    model.species = SpeciesLaws<D>{.pairs = std::vector<PairLaw>(4), .walls = {{}, {}}};
+    grains.assign(static_cast<std::size_t>(small), {});
+    grains.resize(static_cast<std::size_t>(small + large),
+                  {.radius = 1.0, .mass = std::pow(2.0, D), .species = 1});
+  }
+  double mass(int species) const { return species == 0 ? 1.0 : std::pow(2.0, D); }
+  double total_mass() const { return counts[0] + counts[1] * mass(1); }
+
+  // <d^k>
+  double moment(int k) const {
+    return (counts[0] + counts[1] * std::pow(2.0, k)) / (counts[0] + counts[1]);
+  }
+  // Z of an elastic gas: Jenkins & Mancini 1987 for disks, with Henderson's equation; Boublik 1970
+  // and Mansoori, Carnahan, Starling & Leland 1971 for spheres.
+  double compressibility() const {
+    const double phi = fraction, free = 1.0 - phi;
+    if (D == 2) {
+      const double share = moment(1) * moment(1) / moment(2);
+      return (1.0 - share) / free + share * (1.0 + phi * phi / 8.0) / (free * free);
+    }
+    return 1.0 / free + 3.0 * phi / (free * free) * moment(1) * moment(2) / moment(3) +
+           phi * phi * (3.0 - phi) / std::pow(free, 3) * std::pow(moment(2), 3) /
+               std::pow(moment(3), 2);
+  }
+};
+
+/// Means over blocks of an elastic run in equilibrium.
+struct Equilibrium {
+  Sample compressibility;
+  std::array<Sample, 3> pairs;         // collisions per time
+  std::array<Sample, 2> temperatures;  // of each species
+};
+
+template <int D>
+Equilibrium equilibrium_of(const Binary<D>& gas, double block, int blocks) {
+  Simulation<D> simulation(gas.model, mixture_state<D>(gas.model, gas.grains, 1.0, 11));
+  simulation.run_until(block);
+  Totals<D> totals(simulation);
+  PairCounts<D> pairs;
+  simulation.add_observer(totals);
+  simulation.add_observer(pairs);
+  Equilibrium result;
+  for (int k = 0; k < blocks; ++k) {
+    std::array<double, 2> squares{};
+    constexpr int kSamples = 100;
+    for (int sample = 1; sample <= kSamples; ++sample) {
+      simulation.run_until((k + 1) * block + sample * block / kSamples);
+      for (std::uint32_t i = 0; i < gas.grains.size(); ++i) {
+        const Grain& grain = simulation.grain(i);
+        squares[grain.species] += grain.mass * simulation.particles()[i].flight.v.squaredNorm();
+      }
+    }
+    const WindowTotals<D> window = totals.close_window();
+    const double particles = static_cast<double>(gas.grains.size());
+    result.compressibility.add(1.0 + window.virial / (D * particles * window.duration));
+    for (int s = 0; s < 2; ++s) {
+      const double freedoms = D * gas.counts[static_cast<std::size_t>(s)] * kSamples;
+      result.temperatures[static_cast<std::size_t>(s)].add(squares[static_cast<std::size_t>(s)] /
+                                                           freedoms);
+    }
+    for (std::size_t p = 0; p < 3; ++p) {
+      result.pairs[p].add(std::exchange(pairs.counts[p], 0.0) / window.duration);
+    }
+  }
+  return result;
+}
+
+// A value must be within 5 standard errors, and the standard error below `precision` of it.
+// `theory` is the relative error of an approximate value.
+void check_value(const Sample& sample, double value, double precision, double theory = 0.0) {
+  CAPTURE(sample.mean());
+  CAPTURE(sample.standard_error());
+  CAPTURE(value);
+  CHECK(sample.standard_error() < precision * value);
+  CHECK(std::fabs(sample.mean() - value) < 5.0 * sample.standard_error() + theory * value);
+}
+
+// Both momenta are conserved, so a particle of mass m has the mean energy of (1 - m/M) freedoms.
+template <int D>
+void check_equipartition(const Binary<D>& gas, const Equilibrium& found, double precision) {
+  const double particles = gas.counts[0] + gas.counts[1];
+  for (int s = 0; s < 2; ++s) {
+    const double exact = (1.0 - gas.mass(s) / gas.total_mass()) * particles / (particles - 1.0);
+    check_value(found.temperatures[static_cast<std::size_t>(s)], exact, precision);
+  }
+}
+
+}  // namespace
+
+// Rates of pairs: an independent simulator had 62.83(8), 79.8(1) and 18.35(5).
+TEST_CASE("Mixtures: elastic disks of two sizes have Z, collision rates and equipartition") {
+  const Binary<2> gas(100, 50, 0.4);
+  const Equilibrium found = equilibrium_of(gas, 250.0, 96);
+  check_value(found.compressibility, gas.compressibility(), 2e-3, 1e-3);
+  check_value(found.pairs[0], 62.83, 3e-3, 3e-3);
+  check_value(found.pairs[1], 79.8, 3e-3, 3e-3);
+  check_value(found.pairs[2], 18.35, 5e-3, 6e-3);
+  check_equipartition(gas, found, 2e-3);
+}
+
+// An independent simulator had Z = 3.416(3), and rates 226.0(3), 216.6(3) and 27.8(1).
+TEST_CASE("Mixtures: elastic spheres of two sizes have Z, collision rates and equipartition") {
+  const Binary<3> gas(160, 40, 0.3);
+  const Equilibrium found = equilibrium_of(gas, 100.0, 48);
+  check_value(found.compressibility, gas.compressibility(), 2e-3, 5e-3);
+  check_value(found.pairs[0], 226.0, 3e-3, 3e-3);
+  check_value(found.pairs[1], 216.6, 3e-3, 3e-3);
+  check_value(found.pairs[2], 27.8, 5e-3, 6e-3);
+  check_equipartition(gas, found, 3e-3);
+}
+
+// The mean power is D/(2 dt) sum m s^2 (1 - m/M), where s is the standard deviation of the kicks of
+// a particle of mass m.
+TEST_CASE_TEMPLATE("Mixtures: kicks of every law have their mean power", Dimension, Plane, Space) {
+  constexpr int D = Dimension::value;
+  const Binary<D> gas(20, 10, 0.1);
+  constexpr double kInterval = 0.1, kSpeed = 0.5;
+  for (const KickLaw law : {KickLaw::Velocity, KickLaw::Energy, KickLaw::Momentum}) {
+    CAPTURE(static_cast<int>(law));
+    Model<D> model = gas.model;
+    model.species->pairs.assign(4, {.restitution = 0.5});
+    model.bulk_drive = BulkDrive{.interval = kInterval, .kick_speed = kSpeed, .law = law};
+    double power = 0.0;
+    for (int s = 0; s < 2; ++s) {
+      const double m = gas.mass(s);
+      const double deviation = law == KickLaw::Velocity ? kSpeed
+                               : law == KickLaw::Energy ? kSpeed / std::sqrt(m)
+                                                        : kSpeed / m;
+      power += D / (2.0 * kInterval) * gas.counts[static_cast<std::size_t>(s)] * m * deviation *
+               deviation * (1.0 - m / gas.total_mass());
+    }
+    Simulation<D> simulation(model, mixture_state<D>(model, gas.grains, 1.0, 12));
+    Totals<D> totals(simulation);
+    simulation.add_observer(totals);
+    Sample sample;
+    for (int k = 1; k <= 25; ++k) {
+      simulation.run_until(100.0 * k);
+      const WindowTotals<D> window = totals.close_window();
+      sample.add(window.bulk_in / window.duration);
+    }
+    check_value(sample, power, 2e-2);
+    CHECK(totals.ledger_residual() < 1e-12);
+  }
+}
