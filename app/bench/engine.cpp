@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <locale>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
 #include "engine/dimension.h"
+#include "engine/dynamics/simulation.h"
 #include "engine/error.h"
 #include "engine/initial/mixture_state.h"
 #include "engine/physics/lattice.h"
@@ -92,6 +94,11 @@ EngineRate measure_mixture(const std::vector<BenchSpecies>& species, double frac
     volume += packing_fraction(D, count * std::pow(diameter, D));
   }
   model.box.setConstant(std::pow(volume / fraction, 1.0 / D));
+  if (model.box[0] < 2.0 * model.diameter) {
+    throw UserError({"--species", 0, 0},
+                    "the box would be narrower than two of the largest particles",
+                    "choose more particles, or a smaller fraction");
+  }
   model.species =
       SpeciesLaws<D>{.pairs = std::vector<PairLaw>(species.size() * species.size()),
                      .walls = std::vector<std::array<std::optional<Wall>, 2 * D>>(species.size())};

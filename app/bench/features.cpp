@@ -77,7 +77,7 @@ class Trial {
   void take_fields() {
     const bool samples = feature_.snapshots.has_value();
     integrals_.emplace(*simulation_, IntVec<2>(scene_.box.cast<int>()),
-                       moment_layout<2>(feature_.fields, simulation_->model().spins),
+                       moment_layout<2>(feature_.fields, simulation_->model().spins, false),
                        Coarsening{samples ? Estimator::Snapshot : Estimator::Exact, {}});
     simulation_->add_observer(*integrals_);
     if (samples) {

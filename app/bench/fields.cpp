@@ -59,7 +59,7 @@ Outcome observe(const Scene& scene, double duration, const FieldMeasurement& how
     const double longer = kWindowsPerBalance * window;
     simulation->every(kBurnIn + longer, longer, [&](double) { balance->close_window(); });
   }
-  CellIntegrals<2> integrals(*simulation, cells, moment_layout<2>(how.fields, false),
+  CellIntegrals<2> integrals(*simulation, cells, moment_layout<2>(how.fields, false, false),
                              {samples ? Estimator::Snapshot : Estimator::Exact, {}});
   std::vector<CellSums> windows;
   if (!how.fields.empty()) {

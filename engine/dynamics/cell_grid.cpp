@@ -35,16 +35,11 @@ static IntVec<D> choose_counts(const Vec<D>& box, double diameter, double cells)
   return counts;
 }
 
-// Number of lists along an axis that a particle with a reach above 1 reads.
-static int lists_along(int reach) {
-  return (2 * reach + 3) / 3;
-}
-
 namespace {
 
 // Cells along each axis.
 template <int D>
-struct Layout {
+struct CellLayout {
   IntVec<D> counts;
   Vec<D> widths, overhangs;
 
@@ -61,8 +56,9 @@ struct Layout {
 }  // namespace
 
 template <int D>
-static Layout<D> lay_cells(const Vec<D>& extent, double base, double cells) {
-  Layout<D> layout{.counts = choose_counts<D>(extent, base, cells), .widths = {}, .overhangs = {}};
+static CellLayout<D> lay_cells(const Vec<D>& extent, double base, double cells) {
+  CellLayout<D> layout{
+      .counts = choose_counts<D>(extent, base, cells), .widths = {}, .overhangs = {}};
   layout.widths = extent.cwiseQuotient(layout.counts.template cast<double>());
   layout.overhangs = 0.5 * (layout.widths - Vec<D>::Constant(kMinWidth * base)).cwiseMax(0.0);
   return layout;
@@ -71,7 +67,7 @@ static Layout<D> lay_cells(const Vec<D>& extent, double base, double cells) {
 // Whether a periodic box has so many cells that no particle touches another one through two images
 // on its lists.
 template <int D>
-static bool is_wide(const Layout<D>& layout, const Subdomain<D>& subdomain,
+static bool is_wide(const CellLayout<D>& layout, const Subdomain<D>& subdomain,
                     const GridSizes& sizes) {
   const int reach = layout.reach(sizes.base, sizes.largest);
   for (int axis = 0; axis < D; ++axis) {
@@ -96,7 +92,7 @@ void CellGrid<D>::reset(const Subdomain<D>& subdomain, const GridSizes& sizes, d
   open_ = subdomain.open();
   cells_ = cells;
   const Vec<D> extent = subdomain.upper - subdomain.lower;
-  Layout<D> layout = lay_cells<D>(extent, base_, cells);
+  CellLayout<D> layout = lay_cells<D>(extent, base_, cells);
   if (base_ < sizes.largest && !is_wide(layout, subdomain, sizes)) {
     base_ = sizes.largest;
     layout = lay_cells<D>(extent, base_, cells);
@@ -152,7 +148,7 @@ IntVec<D> CellGrid<D>::cell_at(const Vec<D>& position) const {
 
 template <int D>
 int CellGrid<D>::wide_reach(double diameter) const {
-  return Layout<D>{counts_, widths_, overhangs_}.reach(base_, diameter);
+  return CellLayout<D>{counts_, widths_, overhangs_}.reach(base_, diameter);
 }
 
 // Calls act(reach) with a constant for the usual reach, so that loops over lists are unrolled.
@@ -329,7 +325,7 @@ GridSizes grid_sizes(const Model<D>& model, std::span<const Grain> grains) {
   // Mean number of neighbours that a search reads; a list costs as much as some neighbours more.
   const auto cost_of = [&](double base) {
     constexpr double kPerList = 8.0;
-    const Layout<D> layout =
+    const CellLayout<D> layout =
         lay_cells<D>(model.box, base, CellGrid<D>::kCellsPerParticle * particles);
     const double cells = layout.counts.template cast<double>().prod();
     double on_list = 0.0, searches = 0.0, lists = 0.0;

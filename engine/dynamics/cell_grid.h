@@ -32,10 +32,15 @@ struct GridSizes {
 template <int D>
 GridSizes grid_sizes(const Model<D>& model, std::span<const Grain> grains);
 
-/// Grid of cells that finds near particles. Two particles that touch belong to the same cell or to
-/// neighbouring cells. A particle stays in its cell until it is beyond the cell's border by an
-/// overhang. This hysteresis prevents repeated crossings; the overhang is as wide as the first
-/// condition allows.
+/// Number of lists along an axis that a particle with a reach above 1 reads.
+inline int lists_along(int reach) {
+  return (2 * reach + 3) / 3;
+}
+
+/// Grid of cells that finds near particles. Two particles that touch and that are alike belong to
+/// the same cell or to neighbouring cells. A particle stays in its cell until it is beyond the
+/// cell's border by an overhang. This hysteresis prevents repeated crossings; the overhang is as
+/// wide as the first condition allows.
 ///
 /// The list of a cell holds the particles of the cell and of all neighbouring cells. If the box is
 /// only one or two cells wide, a particle occurs several times with different wraps. A search for
@@ -54,7 +59,8 @@ class CellGrid {
   /// volume fractions from 0.05 to 0.3.
   static constexpr double kCellsPerParticle = D == 2 ? 1.0 : 1.3;
 
-  /// An empty grid over a subdomain, of about so many cells, each wider than the base diameter.
+  /// An empty grid over a subdomain, of about so many cells, each wider than the base diameter. In
+  /// a narrow periodic box the base diameter is the largest one.
   CellGrid(const Subdomain<D>& subdomain, const GridSizes& sizes, double cells);
   /// The same over the whole box, for particles that are alike.
   CellGrid(const Model<D>& model, double cells)
@@ -244,7 +250,7 @@ void CellGrid<D>::visit_moved(const IntVec<D>& cell, int axis, int step, const V
 template <int D>
 template <typename Visit>
 void CellGrid<D>::visit_wide(const IntVec<D>& cell, int reach, const Visit& visit) const {
-  const int lists = (2 * reach + 3) / 3;  // along each axis
+  const int lists = lists_along(reach);
   IntVec<D> number = IntVec<D>::Zero();
   while (number[D - 1] < lists) {
     IntVec<D> at, wrap = IntVec<D>::Zero();

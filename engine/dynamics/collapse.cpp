@@ -22,8 +22,9 @@ static std::string partner_name(std::uint32_t partner) {
 
 template <int D>
 static bool gains(const Model<D>& model) {
-  return std::ranges::any_of(model.walls,
-                             [](const auto& wall) { return wall && wall->restitution > 1.0; });
+  bool gains = false;
+  model.for_walls([&](const Wall& wall) { gains = gains || wall.restitution > 1.0; });
+  return gains;
 }
 
 // Whether walls with restitution > 1 heat the gas without bound. The criterion: within the mean
@@ -47,9 +48,9 @@ static double helpful_contact_time(const Model<D>& model, const Watchdog& watchd
 template <int D>
 static double drive_of(const Model<D>& model) {
   double drive = 0.0;
-  for (const auto& wall : model.walls) {
-    if (wall) drive = std::max({drive, wall->drive_speed, 2.0 * wall->stroke * wall->frequency});
-  }
+  model.for_walls([&](const Wall& wall) {
+    drive = std::max({drive, wall.drive_speed, 2.0 * wall.stroke * wall.frequency});
+  });
   return drive;
 }
 
@@ -57,11 +58,9 @@ static double drive_of(const Model<D>& model) {
 template <int D>
 static double emission_of(const Model<D>& model) {
   double temperature = 0.0;
-  for (const auto& wall : model.walls) {
-    if (wall && wall->kind == WallKind::Thermal) {
-      temperature = std::max(temperature, wall->temperature);
-    }
-  }
+  model.for_walls([&](const Wall& wall) {
+    if (wall.kind == WallKind::Thermal) temperature = std::max(temperature, wall.temperature);
+  });
   return std::sqrt(temperature);
 }
 

@@ -8,7 +8,6 @@
 
 #include "engine/dynamics/neighbour.h"
 #include "engine/dynamics/packed_image.h"
-#include "engine/physics/grain.h"
 #include "engine/physics/pair_contact.h"
 
 namespace clatter {
@@ -112,12 +111,12 @@ template <int D>
                                                   const Neighbour*) {
   return diameter;
 }
-// The same in a mixture, whose grains follow each other by number.
+// The same in a mixture, from the radii of all particles.
 template <int D>
-[[gnu::always_inline]] inline Doubles distances_of(const Grain* grains, std::uint32_t particle,
+[[gnu::always_inline]] inline Doubles distances_of(const double* radii, std::uint32_t particle,
                                                    const Neighbour* neighbours) {
-  const auto radius = [&](int lane) { return grains[particle_of<D>(neighbours[lane])].radius; };
-  return broadcast(grains[particle].radius) + Doubles{radius(0), radius(1), radius(2), radius(3)};
+  const auto radius = [&](int lane) { return radii[particle_of<D>(neighbours[lane])]; };
+  return broadcast(radii[particle]) + Doubles{radius(0), radius(1), radius(2), radius(3)};
 }
 
 // Calculates the approaches of all candidates to a particle, see first_contacts.
@@ -188,7 +187,7 @@ template <int D, bool kShifted>
 
 /// For each particle, the first pair_contact_time with its candidates. A particle may be its own
 /// candidate, without effect. `rows` holds all particles, `box` the D edge lengths. `sizes` is the
-/// diameter of all, a double, or the const Grain* of a mixture. `gravity` is read only with
+/// diameter of all, a double, or the radii of a mixture. `gravity` is read only with
 /// kFalling. The result has the same bits with any instruction set.
 ///
 /// Without kShifted, no candidate may have a wrap, and all rows must be in the frame of the box.

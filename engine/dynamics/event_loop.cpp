@@ -43,12 +43,11 @@ static bool is_inside(const Model<D>& model, const Vec<D>& r) {
 template <int D>
 static bool may_collapse(const Model<D>& model) {
   bool may = model.dissipates();
-  for (const auto& wall : model.walls) {
-    if (!wall) continue;
-    const bool holds = wall->kind == WallKind::Thermal && wall->temperature == 0.0;
-    may = may || model.has_gravity() || holds || wall->moves() || wall->restitution != 1.0 ||
-          wall->roughness.any();
-  }
+  model.for_walls([&](const Wall& wall) {
+    const bool holds = wall.kind == WallKind::Thermal && wall.temperature == 0.0;
+    may = may || model.has_gravity() || holds || wall.moves() || wall.restitution != 1.0 ||
+          wall.roughness.any();
+  });
   return may;
 }
 
@@ -82,7 +81,7 @@ void EventLoop<D>::restart(RunState<D>&& saved) {
   now_ = saved.now;
   gas_ = ParticleStates<D>();  // frees its memory before the next gas takes its own
   drop_plans();
-  grains_.assign(saved.grains.begin(), saved.grains.end());
+  grains_.assign(saved.grains);
   free_memory(saved.grains);
   gas_ = states_of<D>(model_, saved);
   near_ = Neighbourhood<D>(model_, grains_, static_cast<double>(gas_.particles.size()));
@@ -148,7 +147,7 @@ static void reorder(std::vector<T>& list, const std::vector<std::uint32_t>& orde
 }
 
 template <int D>
-void EventLoop<D>::load(const ParticleStates<D>& gas, const LargeArray<Grain>& grains,
+void EventLoop<D>::load(const ParticleStates<D>& gas, const GrainArray& grains,
                         const GridSizes& sizes, const Subdomain<D>& subdomain,
                         TileRecord<D>& record, double start, double end) {
   constexpr std::size_t kAhead = 16;
@@ -191,7 +190,7 @@ void EventLoop<D>::load(const ParticleStates<D>& gas, const LargeArray<Grain>& g
     gas_.particles.set_image(i, record.images[i]);
     plans_[i].cell = cells[by_cell[i]];
     if (grains.empty()) continue;
-    grains_[i] = grains[record.numbers[i]];
+    grains_.set(i, grains[record.numbers[i]]);
     near_.insert(i, plans_[i].cell);
   }
   queue_.order_by(record.numbers.data());
@@ -431,14 +430,15 @@ bool EventLoop<D>::compare(Preparation& work, const StopRequest& pause) const {
   });
 }
 
-// Deepest overlap of a particle with those of higher numbers and with walls.
+// Deepest overlap of a particle with others and with walls. A pair of particles that are alike is
+// compared once. A small particle may be on lists that a large one reads, but not the reverse.
 template <int D>
 double EventLoop<D>::deepest_overlap_of(std::size_t number) const {
   const auto i = static_cast<std::uint32_t>(number);
   double deepest = 0.0;
   const Vec<D> r = gas_.particles[i].flight.at(now_, model_.gravity);
   near_.visit(i, plans_[i].cell, [&](std::uint32_t j, const Vec<D>& wrap) {
-    if (j <= i) return;
+    if (j == i || (j < i && grains_.empty())) return;
     const Vec<D> image = gas_.particles.image(j) - gas_.particles.image(i) - wrap;
     const Vec<D> x =
         r - gas_.particles[j].flight.at(now_, model_.gravity) + model_.domain().shift(image);
@@ -483,12 +483,15 @@ void EventLoop<D>::prefetch_ahead() {
     return;
   }
   const bool neighbours = gas_.particles.size() >= kPrefetchNeighboursFrom;
+  const bool mixed = !grains_.empty();
   queue_.look_ahead(neighbours ? 3 : 2, [&](const Event& event) {
     prefetch(gas_.particles[event.particle]);
     prefetch(plans_[event.particle]);
+    if (mixed) prefetch(grains_[event.particle]);
     if (event.partner >= kWall) return;
     prefetch(gas_.particles[event.partner]);
     prefetch(plans_[event.partner]);
+    if (mixed) prefetch(grains_[event.partner]);
   });
   queue_.look_ahead(neighbours ? 2 : 1, [&](const Event& event) {
     if (!is_current(event)) return;
@@ -503,11 +506,13 @@ void EventLoop<D>::prefetch_ahead() {
   queue_.look_ahead(1, [&](const Event& event) {
     if (!is_current(event)) return;
     if (event.partner >= kCellBorder) near_.prefetch_search(event.particle);
-    visit_searches(event, [this](std::uint32_t particle, const IntVec<D>& cell) {
+    visit_searches(event, [this, mixed](std::uint32_t particle, const IntVec<D>& cell) {
       const NearListView list = near_.near(particle, cell);
       for (int k = 0; k < list.capacity; ++k) {
         const Neighbour neighbour = list.neighbours[k];
-        if (neighbour != kNobody) prefetch(gas_.particles[particle_of<D>(neighbour)]);
+        if (neighbour == kNobody) continue;
+        prefetch(gas_.particles[particle_of<D>(neighbour)]);
+        if (mixed) prefetch(grains_.radii()[particle_of<D>(neighbour)]);
       }
     });
   });

@@ -10,6 +10,7 @@
 #include "engine/dynamics/boundary.h"
 #include "engine/dynamics/collapse.h"
 #include "engine/dynamics/event_queue.h"
+#include "engine/dynamics/grain_array.h"
 #include "engine/dynamics/large_array.h"
 #include "engine/dynamics/neighbourhood.h"
 #include "engine/dynamics/observer.h"
@@ -22,7 +23,6 @@
 #include "engine/dynamics/watchdog.h"
 #include "engine/laws/acts.h"
 #include "engine/laws/model.h"
-#include "engine/physics/grain.h"
 #include "engine/stop_request.h"
 
 namespace clatter {
@@ -61,7 +61,7 @@ class EventLoop {
   /// the record. A particle that leaves the subdomain has no more events, and its flight gets a
   /// number that no flight of the gas has.
   /// `grains` are those of the other loop, `sizes` their grid_sizes().
-  void load(const ParticleStates<D>& gas, const LargeArray<Grain>& grains, const GridSizes& sizes,
+  void load(const ParticleStates<D>& gas, const GrainArray& grains, const GridSizes& sizes,
             const Subdomain<D>& subdomain, TileRecord<D>& record, double start, double end);
 
   /// Work of place(), compare() and plan() that has been done.
@@ -161,7 +161,7 @@ class EventLoop {
   /// [N] see Simulation::particles.
   const ParticleArray<D>& particles() const { return gas_.particles; }
   /// What each particle is; empty: all are Model::grain().
-  const LargeArray<Grain>& grains() const { return grains_; }
+  const GrainArray& grains() const { return grains_; }
   /// What a particle is.
   const Grain& grain(std::uint32_t number) const {
     return grains_.empty() ? alike_ : grains_[number];
@@ -216,9 +216,9 @@ class EventLoop {
   const Boundary<D>& boundary_;
   double now_;  // on the base
   ParticleStates<D> gas_;
-  LargeArray<Grain> grains_;  // [N]; empty: all particles are alike
-  Grain alike_;               // of each particle then
-  Partners alike_partners_;   // of each two particles then
+  GrainArray grains_;        // [N]; empty: all particles are alike
+  Grain alike_;              // of each particle then
+  Partners alike_partners_;  // of each two particles then
   LargeArray<Plan<D>> plans_;
   Neighbourhood<D> near_;
   Prediction<D> prediction_;

@@ -144,7 +144,8 @@ void EventLoop<D>::collide(std::uint32_t first, std::uint32_t second, const IntV
   const Vec<D> x = (r_a - r_b) + shift;
   const Vec<D> g = v_a - v_b;
   const bool mixed = !grains_.empty();
-  const double distance = mixed ? grains_[first].radius + grains_[second].radius : model_.diameter;
+  const double distance =
+      mixed ? grains_.radii()[first] + grains_.radii()[second] : model_.diameter;
   const double least = distance - checks_.deepest_overlap * model_.diameter;
   if (x.squaredNorm() < least * least) {
     checks_.deepest_overlap =

@@ -20,7 +20,7 @@ static constexpr double kGrowth = 1.5;
 
 template <int D>
 Foresight<D>::Foresight(const Model<D>& model, const Boundary<D>& boundary,
-                        const LargeArray<Grain>& grains, std::size_t particles, int threads,
+                        const GrainArray& grains, std::size_t particles, int threads,
                         const TileSizes& sizes)
     : model_(model),
       grains_(grains),
@@ -344,9 +344,7 @@ double Foresight<D>::speed_scale(const ParticleStates<D>& gas) const {
   const auto count = static_cast<double>(gas.particles.size());
   double scale = std::max({std::sqrt(squares / (D * count)), kOfFastest * std::sqrt(largest),
                            std::sqrt(model_.gravity.norm() * model_.diameter)});
-  for (const auto& wall : model_.walls) {
-    if (wall) scale = std::max(scale, kOfWalls * speed_of(*wall));
-  }
+  model_.for_walls([&](const Wall& wall) { scale = std::max(scale, kOfWalls * speed_of(wall)); });
   return scale;
 }
 

@@ -10,6 +10,7 @@
 #include "engine/dynamics/boundary.h"
 #include "engine/dynamics/event_loop.h"
 #include "engine/dynamics/foreseen_events.h"
+#include "engine/dynamics/grain_array.h"
 #include "engine/dynamics/large_array.h"
 #include "engine/dynamics/particle_states.h"
 #include "engine/dynamics/subdomain.h"
@@ -53,7 +54,7 @@ class Foresight {
 
   /// Foresight for a number of particles. `model`, `boundary` and `grains`, see EventLoop::grains,
   /// must outlive it. It has one tile if the box is too small for several.
-  Foresight(const Model<D>& model, const Boundary<D>& boundary, const LargeArray<Grain>& grains,
+  Foresight(const Model<D>& model, const Boundary<D>& boundary, const GrainArray& grains,
             std::size_t particles, int threads, const TileSizes& sizes);
   Foresight(const Foresight&) = delete;
   Foresight& operator=(const Foresight&) = delete;
@@ -153,7 +154,7 @@ class Foresight {
   void note_window();
 
   const Model<D>& model_;
-  const LargeArray<Grain>& grains_;
+  const GrainArray& grains_;
   GridSizes grid_sizes_;
   TileSizes sizes_;
   double halo_;

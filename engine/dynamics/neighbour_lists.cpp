@@ -50,7 +50,7 @@ static double even_radius(const Model<D>& model, double particles, double contac
 }
 
 // Mean distance at contact, with its margin.
-static double mean_contact(double largest, const LargeArray<Grain>& grains) {
+static double mean_contact(double largest, const GrainArray& grains) {
   if (grains.empty()) return largest;
   double sum = 0.0;
   for (const Grain& grain : grains) sum += 2.0 * kContact * grain.radius;
@@ -63,13 +63,12 @@ template <int D>
 float NeighbourLists<D>::span_of(std::uint32_t particle) const {
   const double radius = regions_[particle].radius;
   if (grains_->empty()) return static_cast<float>(radius);
-  const double smaller = 0.5 * contact_ - kContact * (*grains_)[particle].radius;
+  const double smaller = 0.5 * contact_ - kContact * grains_->radii()[particle];
   return static_cast<float>(radius - smaller);
 }
 
 template <int D>
-NeighbourLists<D>::NeighbourLists(const Model<D>& model, const LargeArray<Grain>& grains,
-                                  double particles)
+NeighbourLists<D>::NeighbourLists(const Model<D>& model, const GrainArray& grains, double particles)
     : domain_(model.domain()),
       grains_(&grains),
       contact_(kContact * model.diameter),

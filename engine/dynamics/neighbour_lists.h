@@ -9,6 +9,7 @@
 
 #include "engine/dynamics/cell_of.h"
 #include "engine/dynamics/event.h"
+#include "engine/dynamics/grain_array.h"
 #include "engine/dynamics/large_array.h"
 #include "engine/dynamics/near_list.h"
 #include "engine/laws/model.h"
@@ -32,7 +33,7 @@ class NeighbourLists {
 
   /// Empty lists for a number of particles. Periodic sides must not be below kMinSide. `grains` are
   /// those of a mixture, empty if all are alike, and must outlive the lists.
-  NeighbourLists(const Model<D>& model, const LargeArray<Grain>& grains, double particles);
+  NeighbourLists(const Model<D>& model, const GrainArray& grains, double particles);
 
   /// Narrowest periodic side of a box, in diameters.
   static constexpr double kMinSide = 1.5;
@@ -123,9 +124,9 @@ class NeighbourLists {
   float span_of(std::uint32_t particle) const;
 
   Domain<D> domain_;
-  const LargeArray<Grain>* grains_;  // a pointer, so that lists can be assigned
-  double contact_;                   // largest distance of centres at contact, with a margin
-  double max_radius_;                // of regions
+  const GrainArray* grains_;  // a pointer, so that lists can be assigned
+  double contact_;            // largest distance of centres at contact, with a margin
+  double max_radius_;         // of regions
   IntVec<D> counts_;
   Vec<D> widths_;
   std::array<std::vector<Place>, D> steps_;  // [counts + 2] along each axis: of cells -1 ... counts

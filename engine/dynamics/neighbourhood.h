@@ -7,6 +7,7 @@
 #include <span>
 
 #include "engine/dynamics/cell_grid.h"
+#include "engine/dynamics/grain_array.h"
 #include "engine/dynamics/neighbour_lists.h"
 #include "engine/dynamics/particle.h"
 #include "engine/dynamics/prefetch.h"
@@ -29,7 +30,7 @@ class Neighbourhood {
  public:
   /// A neighbourhood for a number of particles. `grains` are those of a mixture, empty if all are
   /// alike, and must outlive it.
-  Neighbourhood(const Model<D>& model, const LargeArray<Grain>& grains, double particles)
+  Neighbourhood(const Model<D>& model, const GrainArray& grains, double particles)
       : grains_(&grains),
         grid_(whole_box<D>(model), grid_sizes<D>(model, grains),
               has_lists(model, grains, particles) ? 1.0
@@ -101,12 +102,18 @@ class Neighbourhood {
   NearListView next(const NearListView& list) const {
     return by_particle() ? lists_->continuations().next(list) : grid_.continuations().next(list);
   }
-  /// Calls visit(particle, wrap) for each particle near a particle in a cell. `wrap` is its
-  /// periodic image in box lengths.
+  /// Calls visit(particle, wrap) for each particle that may touch a particle in a cell, at least
+  /// once. `wrap` is its periodic image in box lengths.
   template <typename Visit>
   void visit(std::uint32_t particle, const IntVec<D>& cell, const Visit& visit) const {
     if (by_particle()) {
       lists_->continuations().visit(lists_->near(particle), visit);
+    } else if (is_wide(particle)) {
+      grid_.visit_wide(cell, reach_of(particle), [&](const auto& list, const IntVec<D>& image) {
+        grid_.continuations().visit(list, [&](std::uint32_t neighbour, const Vec<D>& wrap) {
+          visit(neighbour, Vec<D>(wrap + image.template cast<double>()));
+        });
+      });
     } else {
       grid_.visit(cell, visit);
     }
@@ -177,7 +184,7 @@ class Neighbourhood {
   // Measured for N = 10,976: from this volume fraction on, lists of particles are faster.
   static constexpr double kDense = 0.43;
   // Whether the particles have lists of their own.
-  static bool has_lists(const Model<D>& model, const LargeArray<Grain>& grains, double particles) {
+  static bool has_lists(const Model<D>& model, const GrainArray& grains, double particles) {
     for (int axis = 0; axis < D; ++axis) {
       const double narrowest = NeighbourLists<D>::kMinSide * model.diameter;
       if (model.periodic(axis) && model.box[axis] < narrowest) return false;
@@ -197,11 +204,11 @@ class Neighbourhood {
   bool by_particle() const { return D == 3 && lists_.has_value(); }
 
   int reach_of(std::uint32_t particle) const {
-    return grains_->empty() ? 1 : grid_.reach_of(2.0 * (*grains_)[particle].radius);
+    return grains_->empty() ? 1 : grid_.reach_of(2.0 * grains_->radii()[particle]);
   }
 
-  const LargeArray<Grain>* grains_;  // a pointer, so that a neighbourhood can be assigned
-  CellGrid<D> grid_;                 // of one cell beside lists of particles
+  const GrainArray* grains_;  // a pointer, so that a neighbourhood can be assigned
+  CellGrid<D> grid_;          // of one cell beside lists of particles
   std::optional<NeighbourLists<D>> lists_;
 };
 

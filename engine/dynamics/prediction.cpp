@@ -26,7 +26,7 @@ static_assert(are_rows<2>() && are_rows<3>());
 
 template <int D>
 Prediction<D>::Prediction(const Model<D>& model, const Boundary<D>& boundary,
-                          const ParticleArray<D>& particles, const LargeArray<Grain>& grains,
+                          const ParticleArray<D>& particles, const GrainArray& grains,
                           const Neighbourhood<D>& near)
     : model_(model),
       boundary_(boundary),
@@ -132,7 +132,7 @@ std::array<FirstContact, kParticles> Prediction<D>::first_of(
     std::array<Candidates<D>, kParticles>& near) const {
   const auto sizes = [this] {
     if constexpr (kMixed) {
-      return grains_.data();
+      return grains_.radii();
     } else {
       return model_.diameter;
     }

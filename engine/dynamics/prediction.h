@@ -7,7 +7,7 @@
 
 #include "engine/dynamics/boundary.h"
 #include "engine/dynamics/event.h"
-#include "engine/dynamics/large_array.h"
+#include "engine/dynamics/grain_array.h"
 #include "engine/dynamics/neighbourhood.h"
 #include "engine/dynamics/particle.h"
 #include "engine/laws/model.h"
@@ -31,7 +31,7 @@ struct Plan {
 };
 
 /// Predicts the next event of a particle from stored states alone. The result has the same bits
-/// with any instruction set of the processor.
+/// with any instruction set of the processor. One thread may use an object at a time.
 template <int D>
 class Prediction {
  public:
@@ -44,7 +44,7 @@ class Prediction {
   /// Keeps references to the model, walls, particles and near particles of a simulation, which must
   /// outlive this object. `grains` is empty if all particles are alike.
   Prediction(const Model<D>& model, const Boundary<D>& boundary, const ParticleArray<D>& particles,
-             const LargeArray<Grain>& grains, const Neighbourhood<D>& near);
+             const GrainArray& grains, const Neighbourhood<D>& near);
 
   /// Chooses between simultaneous contacts by these original numbers of the particles, which must
   /// outlive this object. Null: by the particles' own numbers.
@@ -118,7 +118,7 @@ class Prediction {
       const std::array<std::uint32_t, kParticles>& particles,
       std::array<Candidates<D>, kParticles>& near) const;
   double radius_of(std::uint32_t particle) const {
-    return grains_.empty() ? 0.5 * model_.diameter : grains_[particle].radius;
+    return grains_.empty() ? 0.5 * model_.diameter : grains_.radii()[particle];
   }
   void weigh_each(std::uint32_t particle, const Candidates<D>& near, Plan<D>& plan) const;
   void offer_particle(std::uint32_t particle, const Candidates<D>& near, int i, double time,
@@ -130,7 +130,7 @@ class Prediction {
   const Model<D>& model_;
   const Boundary<D>& boundary_;
   const ParticleArray<D>& particles_;
-  const LargeArray<Grain>& grains_;
+  const GrainArray& grains_;
   const Neighbourhood<D>& near_;
   const std::uint32_t* numbers_ = nullptr;
   bool walled_;  // whether there are walls

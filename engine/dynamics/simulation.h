@@ -131,7 +131,7 @@ class Simulation {
   template <class Visit>
   void for_masses(const Visit& visit) const {
     if (is_mixture()) {
-      const Grain* grain = loop_.grains().data();
+      const Grain* grain = loop_.grains().begin();
       for (const Particle<D>& particle : particles()) visit(particle.flight, (grain++)->mass);
     } else {
       for (const Particle<D>& particle : particles()) visit(particle.flight, UnitMass());

@@ -6,8 +6,18 @@
 
 #include "engine/initial/gaussian_velocities.h"
 #include "engine/initial/overlap_removal.h"
+#include "engine/physics/random.h"
 
 namespace clatter {
+
+// A height of rows in which particles are about as far from each other as rows are. The C library's
+// roots may differ between processors, those of the square do not.
+template <int D>
+static double row_height(const Model<D>& model, std::size_t count) {
+  double rows = 1.0;
+  while ((D == 2 ? rows * rows : rows * rows * rows) < static_cast<double>(count)) rows += 1.0;
+  return model.box[D - 1] / rows;
+}
 
 // The order of places along rows of a height, and of rows from bottom to top.
 template <int D>
@@ -34,9 +44,7 @@ State<D> mixture_state(const Model<D>& model, const std::vector<Grain>& grains, 
   OverlapRemoval<D> removal(model.domain(), std::move(radii), random);
   if (!removal.advance(stop)) throw Interrupted();
   const std::vector<Vec<D>> places = removal.take();
-  constexpr double kRowHeight = 1.3;  // in sides of the box of one particle
-  const double height =
-      kRowHeight * std::pow(model.box.prod() / static_cast<double>(grains.size()), 1.0 / D);
+  const double height = row_height(model, grains.size());
   State<D> state;
   std::vector<double> masses;
   for (const std::uint32_t i : order_by_rows<D>(places, height)) {

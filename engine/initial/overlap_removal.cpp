@@ -15,10 +15,10 @@ OverlapRemoval<D>::OverlapRemoval(const Domain<D>& domain, std::vector<double> r
   const double largest = radii_.empty() ? 0.5 : *std::ranges::max_element(radii_);
   std::size_t cells = 1;
   for (int axis = 0; axis < D; ++axis) {
-    constexpr double kWider = 1.01;  // than the largest diameter
-    const double most = std::floor(std::pow(2.0 * static_cast<double>(radii_.size()), 1.0 / D));
+    constexpr double kWider = 1.01;        // than the largest diameter
+    constexpr double kMostCells = 1024.0;  // along an axis
     const double fit = std::floor(domain.box[axis] / (2.0 * kWider * largest));
-    counts_[axis] = static_cast<int>(std::clamp(fit, 1.0, std::max(1.0, most)));
+    counts_[axis] = static_cast<int>(std::clamp(fit, 1.0, kMostCells / (D == 2 ? 1.0 : 8.0)));
     widths_[axis] = domain.box[axis] / counts_[axis];
     cells *= static_cast<std::size_t>(counts_[axis]);
   }
@@ -114,7 +114,8 @@ bool OverlapRemoval<D>::part(std::uint32_t a, std::uint32_t b) {
   if (square >= distance * distance) return false;
   const double length = std::sqrt(square);
   way = length > 0.0 ? Vec<D>(way / length) : Vec<D>(Vec<D>::Unit(static_cast<int>(a % D)));
-  const double volume_a = std::pow(radii_[a], D), volume_b = std::pow(radii_[b], D);
+  const auto cube = [](double r) { return D == 2 ? r * r : r * r * r; };
+  const double volume_a = cube(radii_[a]), volume_b = cube(radii_[b]);
   const double apart = (1.0 + kGap) * distance - length;
   places_[a] -= apart * volume_b / (volume_a + volume_b) * way;
   places_[b] += apart * volume_a / (volume_a + volume_b) * way;

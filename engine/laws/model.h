@@ -16,7 +16,7 @@
 
 namespace clatter {
 
-/// How the kicks of bulk driving depend on the mass m of a particle (mixtures 3).
+/// How the kicks of bulk driving depend on the mass m of a particle (theory 12.6).
 enum class KickLaw {
   Velocity,  ///< kick_speed for each: a white noise of accelerations
   Energy,    ///< kick_speed m^(-1/2): the same power for each
@@ -90,6 +90,18 @@ struct Model {
   /// The wall at a side as a species meets it. The side must have one.
   const Wall& wall(int side, std::uint32_t number) const {
     return species ? *species->walls[number][side] : *walls[side];
+  }
+  /// Calls visit(wall) for each wall, as each species meets it.
+  template <class Visit>
+  void for_walls(const Visit& visit) const {
+    const auto visit_all = [&](const auto& of_sides) {
+      for (const std::optional<Wall>& wall : of_sides) {
+        if (wall) visit(*wall);
+      }
+    };
+    visit_all(walls);
+    if (!species) return;
+    for (const auto& of_species : species->walls) visit_all(of_species);
   }
   /// Whether collisions of particles take energy from the gas.
   bool dissipates() const {

@@ -167,7 +167,7 @@ void EngineWork::execute(const command::SelectGas& asked) {
 }
 
 void EngineWork::execute(const command::Open& asked) {
-  errand_.emplace<OpeningGases>(asked, gases_.get(), record_bytes_);
+  errand_ = OpeningGases(asked, gases_.get(), record_bytes_);
   work_on_opening();
   const auto* opening = std::get_if<OpeningGases>(&errand_);
   if (opening && opening->complete()) finish_opening();

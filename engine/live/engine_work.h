@@ -67,7 +67,7 @@ class EngineWork {
     double until = std::numeric_limits<double>::infinity();  // simulation time
   };
   struct PlayingBackwards {
-    std::optional<Rewinder> rewinder;  // absent: the run is at its present time
+    std::optional<Rewinder> rewinder;  // absent: not begun yet, or ended by a command
     double shown = 0.0;                // simulation time of the last frame of the rewinder
     double wanted = 0.0;               // simulation time that the pace asked for last
   };
@@ -91,7 +91,7 @@ class EngineWork {
   }
   bool opens() const { return std::holds_alternative<OpeningGases>(errand_); }
   bool has_errand() const { return !std::holds_alternative<std::monostate>(errand_); }
-  // The run is not at its present time, or not for long.
+  // The errand is in the past of the run.
   bool is_away() const { return has_errand() && !opens(); }
   bool moves() const { return gases_ && !in<Halted>(); }
   // A gas at rest has time to search for the next collision of the picked particle.

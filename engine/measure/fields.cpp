@@ -25,7 +25,7 @@ S velocity(const Cell<D, S>& cell, int k) {
   return visited(cell) ? cell.momentum[k] / cell.mass_density : S(0.0);
 }
 
-// (theory 8.2; mixtures 4): rho T_k/2 = E_k - rho_m V_k^2/2.
+// (theory 8.2, 12.7): rho T_k/2 = E_k - rho_m V_k^2/2.
 template <int D, class S>
 S temperature(const Cell<D, S>& cell, int k) {
   const S mass = cell.mass_density / cell.density;  // mean

@@ -44,7 +44,7 @@ double cells_memory(const Measure& measure, bool spins) {
   const double cells = cells_of<D>(measure).template cast<double>().prod();
   double bytes = 0.0;
   if (!averages.empty()) {
-    const double row = moment_layout<D>(averages, spins).size * sizeof(double);
+    const double row = moment_layout<D>(averages, spins, false).size * sizeof(double);
     const auto parts =
         static_cast<double>(PartSums<CellSums>::max_parts(static_cast<std::size_t>(cells * row)));
     const double maps = (parts + 1.0) * static_cast<double>(averages.size() * sizeof(double));

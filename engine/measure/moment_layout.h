@@ -42,7 +42,7 @@ struct MomentLayout {
 /// The layout for these fields. `spins`: whether the particles spin, and so carry energy of spin.
 /// `mixed`: whether particles have their own masses.
 template <int D>
-MomentLayout<D> moment_layout(std::span<const Field> fields, bool spins, bool mixed = false);
+MomentLayout<D> moment_layout(std::span<const Field> fields, bool spins, bool mixed);
 
 extern template MomentLayout<2> moment_layout<2>(std::span<const Field>, bool, bool);
 extern template MomentLayout<3> moment_layout<3>(std::span<const Field>, bool, bool);

@@ -23,11 +23,10 @@ double Totals<D>::energy_of_starts() const {
   return 0.5 * twice + simulation_.spin_energy();
 }
 
-// Under another inertia the same spins have another energy. The inertia of a mixture does not
-// change.
+// Under another inertia the same spins have another energy. Particles of a mixture keep theirs.
 template <int D>
 void Totals<D>::change_inertia(double before, double after) {
-  if (before == after) return;
+  if (before == after || simulation_.is_mixture()) return;
   const double gained = (after - before) / before * spin_squares_;
   energy_at_start_ += 0.5 * gained;
   spin_squares_ += gained;
@@ -96,6 +95,12 @@ void Totals<D>::before_laws(const Model<D>& next) {
   integrate_to(simulation_.base_time());
   change_inertia(present.inertia, next.inertia);
   if (!keeps_flights<D>(present, next)) end_flights();
+}
+
+// Particles may have entered at rest.
+template <int D>
+void Totals<D>::on_laws() {
+  mass_ = simulation_.mass();
 }
 
 // Books the work of gravity on all flights up to now.

@@ -52,6 +52,7 @@ class Totals : public Observer<D> {
   void on_kick(const Kick<D>& kick) override;
   void on_base_moved(double shift) override;
   void before_laws(const Model<D>& next) override;
+  void on_laws() override;
 
   /// The totals since the last call, or since the start.
   WindowTotals<D> close_window();

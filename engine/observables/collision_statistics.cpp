@@ -34,7 +34,7 @@ struct CollisionSums {
 // Kinetic energy of a particle before a collision.
 template <int D>
 double energy_before(const ParticleChange<D>& change) {
-  return 0.5 * (change.velocity.squaredNorm() +
+  return 0.5 * (change.grain.mass * change.velocity.squaredNorm() +
                 change.grain.moment_of_inertia() * change.spin.squaredNorm());
 }
 
@@ -124,7 +124,8 @@ void CollisionStatistics<D>::on_collision(const PairCollision<D>& collision) {
   }
   partners_[first.particle] = second.particle;
   partners_[second.particle] = first.particle;
-  const Roughness& roughness = simulation_.model().roughness;
+  const Roughness roughness =
+      simulation_.model().pair(first.grain.species, second.grain.species).roughness;
   const double friction = roughness.friction_in_force();
   if (!roughness.any() || !std::isfinite(friction)) return;
   sums[CollisionSums::kFrictional] += 1.0;

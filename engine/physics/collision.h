@@ -8,7 +8,7 @@
 
 namespace clatter {
 
-/// What determines the collisions of two particles, beside their contact law (mixtures 2).
+/// What determines the collisions of two particles, beside their contact law (theory 12.1).
 struct Partners {
   double distance = 1.0;                     ///< of the centres at contact, the sum of the radii
   double mass = 0.5;                         ///< reduced mass m_12
@@ -119,12 +119,12 @@ Vec<D> surface_slip(const Vec<D>& n, const Vec<D>& v, const Spin<D>& surface) {
   return g - n.dot(g) * n;
 }
 
-/// Action of friction in a contact. Its momentum is -m_12 q reversal g_t, its turn of a partner
-/// Partners::turns times n x g_t, both with the reversal (1 + beta)/(1 + q).
+/// Action of friction in a contact. Its momentum is -m_12 q share g_t, its turn of a partner
+/// Partners::turns times share n x g_t.
 template <int D>
 struct Friction {
-  Vec<D> slip;      ///< g_t
-  double reversal;  ///< (1 + beta)/(1 + q)
+  Vec<D> slip;   ///< g_t
+  double share;  ///< (1 + beta)/(1 + q)
 };
 
 /// Friction between two surfaces; arguments as in surface_slip and slip_reversal.
@@ -135,7 +135,7 @@ Friction<D> friction_of(const Vec<D>& n, const Vec<D>& v, const Spin<D>& surface
   return {slip, slip_reversal(law, inertia, normal_change, slip.norm()) / (1.0 + inertia)};
 }
 
-/// Gains in a collision of rough particles (theory 3.2, 3.3; mixtures 2), for x = r_1 - r_2 at
+/// Gains in a collision of rough particles (theory 3.2, 3.3, 12.3), for x = r_1 - r_2 at
 /// contact and v = v_1 - v_2. `surface` is the sum of radius times angular velocity. The normal
 /// part has the bits of collision_impulse. A law that is not rough has no other part.
 template <int D>
@@ -144,15 +144,15 @@ Exchange<D> rough_impulse(const Vec<D>& x, const Vec<D>& v, const Spin<D>& surfa
   const Vec<D> normal = collision_impulse<D>(x, v, law.restitution, partners);
   if (!law.rough()) return {normal};
   const Vec<D> n = x / x.norm();
-  const auto [slip, reversal] =
+  const auto [slip, share] =
       friction_of<D>(n, v, surface, normal.norm() / partners.mass, law, partners.inertia);
   const Spin<D> turn = cross<D>(n, slip);
-  return {normal - partners.mass * partners.inertia * reversal * slip,
-          {reversal * partners.turns[0] * turn, reversal * partners.turns[1] * turn}};
+  return {normal - partners.mass * partners.inertia * share * slip,
+          {share * partners.turns[0] * turn, share * partners.turns[1] * turn}};
 }
 
 /// Energy that a collision of rough particles loses, (m_12/2) [(1 - alpha^2) g_n^2 + (q/(1+q)) (1 -
-/// beta^2) g_t^2] with q = 1/k and the beta in force (theory 3.6; mixtures 2); arguments as in
+/// beta^2) g_t^2] with q = 1/k and the beta in force (theory 3.6, 12.4); arguments as in
 /// rough_impulse.
 template <int D>
 double dissipated_energy(const Vec<D>& x, const Vec<D>& v, const Spin<D>& surface,

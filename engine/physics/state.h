@@ -37,7 +37,7 @@ inline constexpr std::uint32_t kMaxParticles = (std::uint32_t{1} << (32 - 2 * D)
 /// accepted.
 inline constexpr double kStartRounding = 1e-12;
 
-/// T = (m/DN) sum v^2 of a state; 0 without particles.
+/// T = (1/DN) sum m v^2 of a state; 0 without particles.
 template <int D>
 double temperature_of(const State<D>& state);
 

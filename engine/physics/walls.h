@@ -30,7 +30,7 @@ Vec<D> reflect_moving(Vec<D> v, int axis, double inward, double restitution, dou
   return v;
 }
 
-/// Change of velocity and spin.
+/// Change of a particle's motion at a wall.
 template <int D>
 struct MotionChange {
   Vec<D> velocity = Vec<D>::Zero();
@@ -48,9 +48,8 @@ MotionChange<D> wall_friction(const Vec<D>& before, const Vec<D>& after, const S
   const Vec<D> n = inward * Vec<D>::Unit(axis);
   const double normal_change = std::fabs(after[axis] - before[axis]);
   const Spin<D> surface = grain.radius * spin;
-  const auto [slip, reversal] =
-      friction_of<D>(n, before, surface, normal_change, law, grain.inertia);
-  return {-grain.inertia * reversal * slip, reversal / grain.radius * cross<D>(n, slip)};
+  const auto [slip, share] = friction_of<D>(n, before, surface, normal_change, law, grain.inertia);
+  return {-grain.inertia * share * slip, share / grain.radius * cross<D>(n, slip)};
 }
 
 /// Velocity after a thermal wall of temperature T_w (theory 4.7): the normal component has the

@@ -243,9 +243,9 @@ TEST_CASE("Barometer: the stress of every layer carries the weight above it") {
   const Scene scene = column(Vec2(kWidth, kLayers), 160, kGravity);
   Simulation<2> simulation(model_of<2>(scene, 405), start_state<2>(scene, 405));
   const Field stress = Field(Quantity::Stress, 1, 1), density = Quantity::Density;
-  CellIntegrals<2> stresses(simulation, {1, kLayers}, moment_layout<2>({&stress, 1}, false));
+  CellIntegrals<2> stresses(simulation, {1, kLayers}, moment_layout<2>({&stress, 1}, false, false));
   CellIntegrals<2> densities(simulation, {1, kParts * kLayers},
-                             moment_layout<2>({&density, 1}, false));
+                             moment_layout<2>({&density, 1}, false, false));
   Totals<2> totals(simulation);
   simulation.add_observer(stresses);
   simulation.add_observer(densities);

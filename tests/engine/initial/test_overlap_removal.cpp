@@ -5,6 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "engine/dynamics/simulation.h"
+#include "engine/error.h"
 #include "engine/initial/mixture_state.h"
 #include "engine/initial/overlap_removal.h"
 #include "tests/engine/support/gas.h"
@@ -81,4 +83,30 @@ TEST_CASE_TEMPLATE("Overlap removal: dense particles of any sizes find places in
 TEST_CASE("Overlap removal: particles without room get no places") {
   const std::vector<Grain> grains(100);
   CHECK(mixture_state<2>(box_for<2>(grains, 0.95, false), grains, 1.0, 6).positions.empty());
+}
+
+// The large particles have the lowest numbers, and read several lists.
+TEST_CASE("Overlap: a large particle that overlaps a small one is refused, wherever they are") {
+  std::vector<Grain> grains(200);
+  for (std::size_t i = 0; i < 4; ++i) grains[i].radius = 3.0;
+  const Model<2> model = box_for<2>(grains, 0.2, false);
+  State<2> state = mixture_state<2>(model, grains, 1.0, 7);
+  std::vector<std::size_t> large, small;
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    (state.grains[i].radius > 1.0 ? large : small).push_back(i);
+  }
+  for (const bool first : {false, true}) {
+    for (int k = 0; k < 40; ++k) {
+      State<2> wrong = state;
+      const std::size_t i = large[static_cast<std::size_t>(k) % large.size()];
+      const std::size_t j = small[static_cast<std::size_t>(k)];
+      const double angle = 0.3 * k;
+      wrong.positions[j] =
+          model.domain().wrapped(wrong.positions[i] + 3.4 * Vec2(std::cos(angle), std::sin(angle)));
+      if (first) std::swap(wrong.positions[0], wrong.positions[i]);
+      if (first) std::swap(wrong.grains[0], wrong.grains[i]);
+      REQUIRE(brute_force_overlap(model, wrong) > 1e-3);
+      CHECK_THROWS_AS(Simulation<2>(model, wrong), PhysicalStop);
+    }
+  }
 }

@@ -16,7 +16,7 @@ inline std::vector<Field> average_fields() {
 
 /// A layout with all sums.
 inline MomentLayout<2> full_layout() {
-  return moment_layout<2>(average_fields(), true);
+  return moment_layout<2>(average_fields(), true, false);
 }
 
 /// The sums of a cell by name.

@@ -165,7 +165,7 @@ TEST_CASE("Moment layout: every field has the sums it needs, and no field needs 
   CellIntegrals<2> all(*simulation, {6, 5}, full_layout());
   std::deque<CellIntegrals<2>> singles;
   for (const Field field : average_fields()) {
-    singles.emplace_back(*simulation, IntVec<2>(6, 5), moment_layout<2>({&field, 1}, true));
+    singles.emplace_back(*simulation, IntVec<2>(6, 5), moment_layout<2>({&field, 1}, true, false));
     simulation->add_observer(singles.back());
   }
   simulation->add_observer(all);

@@ -119,6 +119,20 @@ TEST_CASE("Totals: the ledger shows missing events") {
   CHECK(totals.ledger_residual() > 1e-3);
 }
 
+// One particle falls from time 0, another one from time 1. Between 1 and 2 the mean of v^2 is
+// g^2 (7/3 + 1/3)/2.
+TEST_CASE("Totals: particles that enter fall from then on") {
+  Simulation<2> simulation(falling(periodic_box(10.0, 10.0), {0.0, -0.5}),
+                           State<2>{{{2.0, 5.0}}, {{0.0, 0.0}}});
+  Totals<2> totals(simulation);
+  simulation.add_observer(totals);
+  simulation.run_until(1.0);
+  totals.close_window();
+  simulation.add_particles({{7.0, 5.0}});
+  simulation.run_until(2.0);
+  CHECK(totals.close_window().temperature.y() == doctest::Approx(0.25 * 4.0 / 3.0).epsilon(1e-12));
+}
+
 TEST_CASE("Totals: the momentum of the walls equals the loss of the gas") {
   // Static and driven walls act along their normals only.
   Scene scene = rough_mixture(25);

@@ -236,7 +236,7 @@ TEST_CASE("LiveField: of spheres, cells and arrows fill the box") {
   view.window = 50.0;
   LiveField<3> live(*simulation, view);
   const std::vector<Field> all = all_fields(3);
-  CellIntegrals<3> integrals(*simulation, {6, 5, 7}, moment_layout<3>(all, true));
+  CellIntegrals<3> integrals(*simulation, {6, 5, 7}, moment_layout<3>(all, true, false));
   simulation->add_observer(integrals);
   simulation->run_until(5.0);
   Snapshot snapshot;

@@ -10,7 +10,7 @@
 namespace clatter::testing {
 
 /// The grains of a gas of particles that are alike.
-inline const LargeArray<Grain> kAlike;
+inline const GrainArray kAlike;
 
 /// Particles at random positions in equal plots of the box, with Gaussian velocities of temperature
 /// 1. Without walls the momentum is zero.
