@@ -301,7 +301,7 @@ bool CellGrid<D>::fit(double particles, double near) {
 }
 
 template <int D>
-GridSizes grid_sizes(const Model<D>& model, std::span<const Grain> grains) {
+GridSizes grid_sizes(const Model<D>& model, const GrainArray& grains) {
   GridSizes best{model.diameter, model.diameter};
   if (grains.empty()) return best;
   // Particles of about the same size, and the mean size and mobility of all.
@@ -349,8 +349,8 @@ GridSizes grid_sizes(const Model<D>& model, std::span<const Grain> grains) {
   return best;
 }
 
-template GridSizes grid_sizes(const Model<2>&, std::span<const Grain>);
-template GridSizes grid_sizes(const Model<3>&, std::span<const Grain>);
+template GridSizes grid_sizes(const Model<2>&, const GrainArray&);
+template GridSizes grid_sizes(const Model<3>&, const GrainArray&);
 template class CellGrid<2>;
 template class CellGrid<3>;
 

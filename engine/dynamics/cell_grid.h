@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "engine/dynamics/cell_of.h"
 #include "engine/dynamics/event.h"
+#include "engine/dynamics/grain_array.h"
 #include "engine/dynamics/large_array.h"
 #include "engine/dynamics/near_list.h"
 #include "engine/dynamics/neighbour.h"
@@ -30,7 +30,7 @@ struct GridSizes {
 
 /// The sizes for the fastest search among particles in a box: `base` is one of their diameters.
 template <int D>
-GridSizes grid_sizes(const Model<D>& model, std::span<const Grain> grains);
+GridSizes grid_sizes(const Model<D>& model, const GrainArray& grains);
 
 /// Number of lists along an axis that a particle with a reach above 1 reads.
 inline int lists_along(int reach) {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <span>
 
 #include "engine/dynamics/cell_grid.h"
 #include "engine/dynamics/grain_array.h"
