@@ -13,7 +13,7 @@ namespace clatter {
 /// Result of a collision of two particles.
 template <int D>
 struct PairOutcome {
-  Exchange<D> gain;
+  Exchange<D> gain;           ///< of both particles
   bool elasticised = false;   ///< whether the TC model made the collision elastic
   double undissipated = 0.0;  ///< energy that the TC model saved from dissipation
 };
@@ -31,7 +31,7 @@ struct Arrival {
   Spin<D> spin = Spin<D>::Zero();
   std::uint32_t particle = 0;
   std::uint64_t flight = 0;  ///< number of the flight that ends here, with its era in the high word
-  Grain grain;
+  Grain grain;               ///< what the particle is
 };
 
 /// State of a particle just after it hits a wall.

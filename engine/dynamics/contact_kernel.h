@@ -187,8 +187,8 @@ template <int D, bool kShifted>
 
 /// For each particle, the first pair_contact_time with its candidates. A particle may be its own
 /// candidate, without effect. `rows` holds all particles, `box` the D edge lengths. `sizes` is the
-/// diameter of all, a double, or the radii of a mixture. `gravity` is read only with
-/// kFalling. The result has the same bits with any instruction set.
+/// diameter of all, a double, or the radii of a mixture. `gravity` is read only with kFalling. The
+/// result has the same bits with any instruction set.
 ///
 /// Without kShifted, no candidate may have a wrap, and all rows must be in the frame of the box.
 /// With kShifted, no row may have a kFarImage. If a row does not fit, `unique` is false and the
