@@ -41,9 +41,9 @@ namespace clatter {
 /// The work of the engine, on its thread or in slices. It executes commands, runs the gases at
 /// their speed and publishes frames. Errors become messages in frames.
 ///
-/// Its state is a motion and an errand. The errand comes first: a scene is opened, the last
-/// collision is searched for, or the run goes to another time. Commands wait meanwhile, and the
-/// motion goes on afterwards. A gas without errand and motion is at rest.
+/// Its state is a motion and an errand. The motion is a halt, playing, playing backwards or a step.
+/// An errand comes before the motion: a scene is opened, the last collision is searched for, or the
+/// run goes to another time. Commands wait until the errand ends.
 class EngineWork {
  public:
   using Clock = Pace::Clock;  ///< of real time
