@@ -185,7 +185,7 @@ void compare_ways(const Scene& scene, bool observed) {
 TEST_CASE("Foresight: tiles give the bits of the whole gas for mixtures") {
   for (const double ratio : {1.4, 5.0}) {
     CAPTURE(ratio);
-    for (const char* const text : {kScenes[1], kScenes[2], kScenes[4]}) {
+    for (const char* const text : {kScenes[2], kScenes[4]}) {
       CAPTURE(text);
       const Scene scene = parse_scene(text, "a scene");
       const Model<2> model = with_species(model_of<2>(scene, kForesightSeed));

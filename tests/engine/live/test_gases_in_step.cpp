@@ -261,9 +261,9 @@ TEST_CASE("Gases in step: steps to collisions are those of the selected gas") {
     CHECK(frame.partners.has_value());
     check_bits(frame);
   }
-  execute(engine, command::Play{true, 10.0});
+  execute(engine, command::Play{true, 3.0});
   const Frame& back = execute(engine, command::StepBack{});
-  CHECK(back.snapshot.time < 10.0);
+  CHECK(back.snapshot.time < 3.0);
   check_bits(back);
   execute(engine, command::PlayBackwards{});
   engine.work(std::chrono::milliseconds(100));
