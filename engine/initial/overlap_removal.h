@@ -19,7 +19,7 @@ namespace clatter {
 template <int D>
 class OverlapRemoval {
  public:
-  /// Begins with random points in a box. `radii` are those of the particles, at most a quarter of a
+  /// Begins with random points in a box. `radii` are those of the particles, less than half of each
   /// side of the box.
   OverlapRemoval(const Domain<D>& domain, std::vector<double> radii, Random& random);
 
@@ -30,19 +30,27 @@ class OverlapRemoval {
   std::vector<Vec<D>> take();
 
  private:
+  /// Cells with the particles of similar diameters.
+  struct Grid {
+    IntVec<D> counts;  ///< of cells along each axis, each wider than the largest diameter
+    Vec<D> widths;
+    std::vector<std::uint32_t> first;  ///< [cells + 1] places in order
+    std::vector<std::uint32_t> order;  ///< numbers of particles, by cell
+
+    Grid(const Vec<D>& box, double diameter);
+  };
+
   void sort_into_cells();
   bool sweep();
-  bool part_from(std::uint32_t particle, const IntVec<D>& cell);
+  bool part_from(std::uint32_t particle, const Grid& grid, const IntVec<D>& cell, bool later_only);
   bool part(std::uint32_t a, std::uint32_t b);
   void keep_inside(std::uint32_t particle);
 
   Domain<D> domain_;
   std::vector<double> radii_;
   std::vector<Vec<D>> places_;
-  IntVec<D> counts_;  // of cells along each axis, each wider than the largest diameter
-  Vec<D> widths_;
-  std::vector<std::uint32_t> first_;  // [cells + 1] places in order_
-  std::vector<std::uint32_t> order_;  // [N] numbers of particles, by cell
+  std::vector<Grid> grids_;           // of diameters that halve from one to the next
+  std::vector<std::uint8_t> levels_;  // [N] number of each particle's grid
   int sweeps_ = 0;
   bool overlaps_ = true;
 };
