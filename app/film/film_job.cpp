@@ -113,7 +113,8 @@ std::string scene_text(Scene scene) {
 std::string start_text(const Scene& scene) {
   const Start& start = scene.particles.start;
   if (start.layout != Layout::File) return "";
-  return std::visit([](const auto& state) { return state_to_csv(state); }, start.state);
+  return std::visit([&](const auto& state) { return state_to_csv(state, scene.species); },
+                    start.state);
 }
 
 // Empty if the file does not exist.

@@ -226,7 +226,10 @@ void write_results(const MeasureOptions& options, const nlohmann::ordered_json& 
   }
   if (!options.hdf5.empty()) attempt([&] { write_hdf5(options.hdf5, result, measured, stop); });
   if (!options.save_state.empty()) {
-    attempt([&] { write_file(options.save_state, state_to_csv(run.simulation().state())); });
+    attempt([&] {
+      write_file(options.save_state,
+                 state_to_csv(run.simulation().state(), run.scheduled().laws().species));
+    });
   }
   if (!failure.empty()) throw RunError(failure + run.rescue());
 }

@@ -89,7 +89,8 @@ Scene Gui::recorded_beside(const Frame& gas, const std::string& file) const {
   if (start.layout == Layout::File && (start.file.empty() || copied)) {
     start.file = std::filesystem::path(file).replace_extension(".csv");
     write_file(start.file,
-               std::visit([](const auto& state) { return state_to_csv(state); }, start.state));
+               std::visit([&](const auto& state) { return state_to_csv(state, scene.species); },
+                          start.state));
     host_.deliver(start.file);
   }
   return scene;

@@ -33,7 +33,9 @@ template <int D>
 static GasMemory memory_of(const Scene& scene) {
   const auto count = static_cast<double>(final_count(scene));
   const double remainder = scene.box.maxCoeff() > kLongBox ? sizeof(Vec<D>) : 0.0;
-  return {count * (kBytesPerParticle<D> + remainder), scene.spins() ? count * sizeof(Spin<D>) : 0.0,
+  const double grain = scene.species.empty() ? 0.0 : sizeof(Grain) + sizeof(double);
+  return {count * (kBytesPerParticle<D> + remainder + grain),
+          scene.spins() ? count * sizeof(Spin<D>) : 0.0,
           scene.contact_time ? count * sizeof(double) : 0.0};
 }
 
@@ -56,9 +58,10 @@ void require_memory(const Scene& scene) {
   const std::string reason = needed <= there ? " particles exceed the limit of the program"
                                              : " particles take about " + gigabytes(needed) +
                                                    ", and this process may use " + gigabytes(there);
-  throw UserError({"particles.count", 0, 0}, std::to_string(count) + reason,
-                  "choose at most " + std::to_string(static_cast<int>(
-                                          std::min<double>(most_particles(scene), fitting))));
+  throw UserError(
+      {scene.species.empty() ? "particles.count" : "species", 0, 0}, std::to_string(count) + reason,
+      "choose at most " +
+          std::to_string(static_cast<int>(std::min<double>(most_particles(scene), fitting))));
 }
 
 }  // namespace clatter

@@ -10,13 +10,24 @@
 
 namespace clatter {
 
+std::vector<Grain> grains_of(const Scene& scene) {
+  std::vector<Grain> grains;
+  for (std::size_t k = 0; k < scene.species.size(); ++k) {
+    const int count = scene.species[k].count;
+    for (int i = 0; i < count; ++i) grains.push_back(scene.grain(k, i, count));
+  }
+  return grains;
+}
+
 // A height of rows in which particles are about as far from each other as rows are. The C library's
 // roots may differ between processors, those of the square do not.
 template <int D>
-static double row_height(const Model<D>& model, std::size_t count) {
-  double rows = 1.0;
-  while ((D == 2 ? rows * rows : rows * rows * rows) < static_cast<double>(count)) rows += 1.0;
-  return model.box[D - 1] / rows;
+static double row_height(const std::vector<Vec<D>>& places) {
+  double rows = 1.0, highest = 0.0;
+  const auto count = static_cast<double>(places.size());
+  while ((D == 2 ? rows * rows : rows * rows * rows) < count) rows += 1.0;
+  for (const Vec<D>& place : places) highest = std::max(highest, place[D - 1]);
+  return std::max(highest, 1e-3) / rows;
 }
 
 // The order of places along rows of a height, and of rows from bottom to top.
@@ -36,18 +47,11 @@ static std::vector<std::uint32_t> order_by_rows(const std::vector<Vec<D>>& place
 }
 
 template <int D>
-State<D> mixture_state(const Model<D>& model, const std::vector<Grain>& grains, double temperature,
-                       std::uint64_t seed, const StopRequest& stop) {
-  std::vector<double> radii;
-  for (const Grain& grain : grains) radii.push_back(grain.radius);
-  Random random(seed, Stream::Placement, 0, 0);
-  OverlapRemoval<D> removal(model.domain(), std::move(radii), random);
-  if (!removal.advance(stop)) throw Interrupted();
-  const std::vector<Vec<D>> places = removal.take();
-  const double height = row_height(model, grains.size());
+State<D> state_at_places(const std::vector<Vec<D>>& places, const std::vector<Grain>& grains,
+                         double temperature, std::uint64_t seed, const StopRequest& stop) {
   State<D> state;
   std::vector<double> masses;
-  for (const std::uint32_t i : order_by_rows<D>(places, height)) {
+  for (const std::uint32_t i : order_by_rows<D>(places, row_height<D>(places))) {
     state.positions.push_back(places[i]);
     state.grains.push_back(grains[i]);
     masses.push_back(grains[i].mass);
@@ -56,6 +60,23 @@ State<D> mixture_state(const Model<D>& model, const std::vector<Grain>& grains, 
   return state;
 }
 
+template <int D>
+State<D> mixture_state(const Model<D>& model, const std::vector<Grain>& grains, double temperature,
+                       std::uint64_t seed, const StopRequest& stop) {
+  std::vector<double> radii;
+  for (const Grain& grain : grains) radii.push_back(grain.radius);
+  Random random(seed, Stream::Placement, 0, 0);
+  OverlapRemoval<D> removal(model.domain(), std::move(radii), random);
+  if (!removal.advance(stop)) throw Interrupted();
+  const std::vector<Vec<D>> places = removal.take();
+  if (places.empty()) return {};
+  return state_at_places<D>(places, grains, temperature, seed, stop);
+}
+
+template State<2> state_at_places(const std::vector<Vec<2>>&, const std::vector<Grain>&, double,
+                                  std::uint64_t, const StopRequest&);
+template State<3> state_at_places(const std::vector<Vec<3>>&, const std::vector<Grain>&, double,
+                                  std::uint64_t, const StopRequest&);
 template State<2> mixture_state(const Model<2>&, const std::vector<Grain>&, double, std::uint64_t,
                                 const StopRequest&);
 template State<3> mixture_state(const Model<3>&, const std::vector<Grain>&, double, std::uint64_t,

@@ -23,27 +23,33 @@ class FreeRoom {
       : model_(model), near_(model.domain(), model.diameter), low_(laws.clear_corner()) {
     high_ = low_ + Vec<D>(laws.clear_box());
     if (state.piston) high_[0] -= state.piston->travel(Clock(state.base).absolute(state.now));
-    for (const Flight<D>& flight : state.flights) {
-      near_.add(model.domain().wrapped(flight.at(state.now, state.gravity)));
+    for (std::size_t i = 0; i < state.flights.size(); ++i) {
+      near_.add(model.domain().wrapped(state.flights[i].at(state.now, state.gravity)));
+      radii_.push_back(state.grains.empty() ? 0.5 * model.diameter : state.grains[i].radius);
     }
   }
 
-  // Inserts a centre in the box, if it has room there.
-  bool insert_if_free(const Vec<D>& point) {
-    const double radius = 0.5 * model_.diameter;
+  // Inserts a particle in the box, if it has room there.
+  bool insert_if_free(const Vec<D>& point, double radius) {
     for (int axis = 0; axis < D; ++axis) {
       if (model_.periodic(axis)) continue;
       if (!(point[axis] >= low_[axis] + radius && point[axis] <= high_[axis] - radius))
         return false;
     }
-    if (near_.any_within(point, model_.diameter)) return false;
+    bool free = true;
+    near_.visit(point, [&](std::uint32_t other, const Vec<D>& way) {
+      free = free && way.norm() >= radius + radii_[other];
+    });
+    if (!free) return false;
     near_.add(point);
+    radii_.push_back(radius);
     return true;
   }
 
  private:
   const Model<D>& model_;
   NearParticles<D> near_;
+  std::vector<double> radii_;
   Vec<D> low_, high_;  // of the room for surfaces, along axes with walls
 };
 
@@ -69,19 +75,24 @@ std::vector<PuffParticle<D>> puff_particles(const RunState<D>& state, const Puff
   Random random(seed, Stream::Puff, static_cast<std::uint32_t>(state.counts.puffs), 0);
   const Vec<D> centre = puff.centre;
   const Vec<D> mean = puff.velocity ? Vec<D>(*puff.velocity) : Vec<D>(Vec<D>::Zero());
+  const std::size_t species = find_species(laws.species, puff.species).value_or(0);
   std::vector<PuffParticle<D>> particles;
   for (int tries = 0; tries < kTries && static_cast<int>(particles.size()) < puff.count; ++tries) {
     const Vec<D> point = model.domain().wrapped(centre + point_in_ball<D>(puff.radius, random));
-    if (!room.insert_if_free(point)) continue;
+    const auto number = static_cast<int>(particles.size());
+    const Grain grain =
+        laws.species.empty() ? model.grain() : laws.grain(species, number, puff.count);
+    if (!room.insert_if_free(point, grain.radius)) continue;
     tries = 0;
     Vec<D> velocity = mean;
-    for (double& component : velocity) component += std::sqrt(puff.temperature) * random.normal();
+    const double spread = std::sqrt(puff.temperature / grain.mass);
+    for (double& component : velocity) component += spread * random.normal();
     if (!(velocity.norm() <= kMaxSpeed)) {
       throw PhysicalStop(
           fmt::format("a puff gives particle {} a speed above {:.0e}; make it colder",
                       before + particles.size(), kMaxSpeed));
     }
-    particles.push_back({point, velocity});
+    particles.push_back({point, velocity, grain});
   }
   return particles;
 }

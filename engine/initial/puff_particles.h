@@ -14,6 +14,7 @@ template <int D>
 struct PuffParticle {
   Vec<D> position;
   Vec<D> velocity;
+  Grain grain = {};  ///< what it is, if the gas is a mixture
 };
 
 /// The particles of a puff that enters the gas of a saved run under these laws, without overlaps.

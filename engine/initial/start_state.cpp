@@ -11,7 +11,10 @@
 #include "engine/dimension.h"
 #include "engine/dynamics/near_particles.h"
 #include "engine/dynamics/simulation.h"
+#include "engine/error.h"
 #include "engine/initial/gaussian_velocities.h"
+#include "engine/initial/mixture_state.h"
+#include "engine/initial/overlap_removal.h"
 #include "engine/initial/random_insertion.h"
 #include "engine/physics/lattice.h"
 #include "engine/physics/random.h"
@@ -45,6 +48,19 @@ static std::vector<Spin<D>> gaussian_spins(std::size_t count, double temperature
   const double freedoms = static_cast<double>(Spin<D>::SizeAtCompileTime * count);
   const double scale = std::sqrt(freedoms * temperature / (0.25 * inertia * sum));
   for (Spin<D>& spin : spins) spin *= scale;
+  return spins;
+}
+
+// The same of the particles of a mixture: each has the same mean energy, so that spins fall as the
+// root of the moment of inertia.
+template <int D>
+static std::vector<Spin<D>> gaussian_spins(const std::vector<Grain>& grains, double temperature,
+                                           std::uint64_t seed, const StopRequest& stop) {
+  constexpr double kQuarter = 4.0;  // the moment of inertia of q = 4 is 1
+  std::vector<Spin<D>> spins = gaussian_spins<D>(grains.size(), temperature, kQuarter, seed, stop);
+  for (std::size_t i = 0; i < spins.size(); ++i) {
+    spins[i] /= std::sqrt(grains[i].moment_of_inertia());
+  }
   return spins;
 }
 
@@ -212,14 +228,29 @@ class StartWork : public StartMaker::Work {
         random_(seed, Stream::Placement, 0, 0) {
     const Start& start = scene_.particles.start;
     if (start.layout == Layout::File) return;
+    grains_ = grains_of(scene_);
     if (start.layout != Layout::Random) {
       positions_ = lattice_positions(room_, count(), seed_);
+    } else if (!grains_.empty()) {
+      std::vector<double> radii;
+      for (const Grain& grain : grains_) radii.push_back(grain.radius);
+      removal_.emplace(Domain<D>{.box = room_.box, .periodic = periodic()}, std::move(radii),
+                       random_);
     } else if (fraction() <= kInsertionFraction<D>) {
       insertion_.emplace(room_, count(), random_);
     }
   }
 
   bool advance(const StopRequest& pause) override {
+    if (removal_) {
+      if (!removal_->advance(pause)) return false;
+      positions_ = removal_->take();
+      removal_.reset();
+      if (positions_.empty()) {
+        throw UserError({}, "the particles of the mixture have found no places without overlaps",
+                        "give fewer of them, or a larger box");
+      }
+    }
     if (insertion_) {
       if (!insertion_->advance(pause)) return false;
       positions_ = insertion_->take();
@@ -255,9 +286,17 @@ class StartWork : public StartMaker::Work {
     const Start& start = scene_.particles.start;
     if (start.layout == Layout::File) return std::get<State<D>>(start.state);
     State<D> state;
+    const Vec<D> corner = scene_.clear_corner();
+    if (!grains_.empty()) {
+      for (Vec<D>& position : positions_) position += corner;
+      state = state_at_places<D>(positions_, grains_, start.temperature, seed_, stop_);
+      if (scene_.spins()) {
+        state.spins = gaussian_spins<D>(state.grains, start.spin_temperature, seed_, stop_);
+      }
+      return state;
+    }
     state.positions = std::move(positions_);
     number_by_rows<D>(state.positions);
-    const Vec<D> corner = scene_.clear_corner();
     for (Vec<D>& position : state.positions) position += corner;
     state.velocities =
         gaussian_velocities<D>(state.positions.size(), start.temperature, seed_, stop_);
@@ -270,6 +309,11 @@ class StartWork : public StartMaker::Work {
 
  private:
   int count() const { return scene_.particles.count; }
+  std::array<bool, D> periodic() const {
+    std::array<bool, D> periodic{};
+    for (int axis = 0; axis < D; ++axis) periodic[axis] = !room_.walled[axis];
+    return periodic;
+  }
   double fraction() const { return packing_fraction(D, count() / room_.box.prod()); }
 
   bool is_complete() const {
@@ -295,6 +339,8 @@ class StartWork : public StartMaker::Work {
   StopRequest stop_;
   Room<D> room_;
   Random random_;
+  std::vector<Grain> grains_;                    // of a mixture; empty: particles are alike
+  std::optional<OverlapRemoval<D>> removal_;     // the present part of the work, or none
   std::optional<RandomInsertion<D>> insertion_;  // the present part of the work, or none
   std::optional<Melting<D>> melting_;            // the same
   std::vector<Vec<D>> sites_;                    // of the lattice that will melt

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 
 #include "engine/vec.h"
 
@@ -28,6 +29,7 @@ struct Puff {
   double radius = 1.0;                ///< of the region, > 0; across periodic sides as well
   double temperature = 1.0;           ///< m times the variance of each velocity component, >= 0
   std::optional<VecX> velocity = {};  ///< [D] mean velocity; absent: 0
+  std::string species = {};           ///< name of their species in a mixture; empty: its first
 
   bool operator==(const Puff&) const = default;
 };

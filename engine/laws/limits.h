@@ -16,6 +16,13 @@ inline constexpr double kMaxLength = 1e6;
 inline constexpr double kMaxFrequency = 1e15;
 inline constexpr double kMaxPhase = 1e6;
 inline constexpr double kMinInertia = 1e-9;
+/// Limits of the diameters and masses of a mixture.
+inline constexpr double kMinDiameter = 1e-3;
+inline constexpr double kMaxDiameter = 1e3;
+inline constexpr double kMinMass = 1e-9;
+inline constexpr double kMaxMass = 1e9;
+/// Maximum number of species: each two of them have a law.
+inline constexpr int kMaxSpecies = 100;
 /// Maximum factor of velocities in a nudge.
 inline constexpr double kMaxScale = 1e3;
 /// A wall that adds energy (theory 4.1) has a restitution above 1.

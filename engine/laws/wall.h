@@ -19,6 +19,8 @@ struct Roughness {
   bool any() const;
   /// Whether every contact keeps the energy: nothing spins, or mu is infinite and beta_0 = 1.
   bool conserves() const;
+
+  bool operator==(const Roughness&) const = default;
 };
 
 /// Action of a wall on particles (theory 4).

@@ -53,6 +53,10 @@ Scene ScheduledRun<D>::present_scene() const {
   Scene present = scene();
   if (present.particles.start.layout != Layout::File) {
     present.particles.count = static_cast<int>(simulation_->particles().size());
+    for (Species& one : present.species) one.count = 0;
+    for (std::uint32_t i = 0; i < simulation_->particles().size(); ++i) {
+      if (!present.species.empty()) ++present.species[simulation_->grain(i).species].count;
+    }
   }
   return present;
 }
@@ -207,11 +211,13 @@ void ScheduledRun<D>::enter(const Puff& puff) {
   auto next = static_cast<std::uint32_t>(simulation_->particles().size());
   std::vector<Vec<D>> positions;
   std::vector<NewVelocity<D>> velocities;
-  for (const auto& [position, velocity] : particles) {
+  std::vector<Grain> grains;
+  for (const auto& [position, velocity, grain] : particles) {
     positions.push_back(position);
     velocities.push_back({next++, velocity});
+    if (simulation_->is_mixture()) grains.push_back(grain);
   }
-  simulation_->add_particles(positions);
+  simulation_->add_particles(positions, grains);
   simulation_->use_threads(threads_);
   if (shown_) shown_->on_laws(false);
   simulation_->start_puff(velocities);

@@ -73,6 +73,9 @@ void check_puff(const Puff& puff, const Scene& scene,
   check_size(puff.centre, scene, "puff", "centre", place_of("centre"));
   if (puff.velocity) check_size(*puff.velocity, scene, "puff", "velocity", place_of("velocity"));
   check_centre(puff.centre, scene, "puff", place_of("centre"));
+  if (puff.species.empty() || find_species(scene.species, puff.species)) return;
+  throw UserError(place_of("species"), "there is no species " + in_quotes(puff.species),
+                  scene.species.empty() ? "remove the key" : "give the name of one of [[species]]");
 }
 
 std::int64_t count_at(const Scene& scene, std::size_t change) {
@@ -93,8 +96,7 @@ std::int64_t final_count(const Scene& scene) {
 }
 
 double least_piston_position(const Scene& scene) {
-  constexpr double kDiameter = 1.0;
-  return scene.box[0] - scene.clear_box()[0] + kDiameter;
+  return scene.box[0] - scene.clear_box()[0] + scene.largest_diameter();
 }
 
 // Numbers of the changes with a stroke, in order of their times.
@@ -159,9 +161,15 @@ double compressed_fraction(const Scene& scene) {
   for (const Change& change : scene.changes) {
     position = std::min(position, change.piston.value_or(position));
   }
-  return packing_fraction(scene.dimension(),
-                          static_cast<double>(final_count(scene)) / scene.box.prod()) *
-         scene.box[0] / position;
+  const int dimension = scene.dimension();
+  double volumes = scene.packing_fraction() * scene.box.prod();
+  for (const Change& change : scene.changes) {
+    if (!change.puff) continue;
+    const std::size_t kind = find_species(scene.species, change.puff->species).value_or(0);
+    const double power = scene.species.empty() ? 1.0 : scene.species[kind].mean_power(dimension);
+    volumes += change.puff->count * packing_fraction(dimension, power);
+  }
+  return volumes / (scene.box.prod() / scene.box[0] * position);
 }
 
 }  // namespace clatter

@@ -44,17 +44,19 @@ inline constexpr auto kPuffKeys = key_table(
       "Centre of the region, in the box. The new particles have their centres in it."},
      {"radius", "a", "Radius of the region, a disk or a ball. It continues across periodic sides."},
      {"temperature", "m a^2/t^2", "Temperature of the velocities, which are Gaussian."},
-     {"velocity", "a/t", "Mean velocity of the new particles. Without a value it is 0."}});
+     {"velocity", "a/t", "Mean velocity of the new particles. Without a value it is 0."},
+     {"species", "", "Species of the new particles in a mixture. Without a value the first."}});
 
-/// The keys of [change.puff].
+/// The keys of [change.puff]. `species_names` are those of a mixture.
 template <class Visitor>
-void visit_puff(Visitor& io, Puff& puff) {
+void visit_puff(Visitor& io, Puff& puff, const std::vector<std::string>& species_names) {
   io.value(kPuffKeys.at("count"), puff.count, between(1, kMaxCount), kRequired);
   io.value(kPuffKeys.at("centre"), puff.centre, at_least(0.0), kRequired);
   io.value(kPuffKeys.at("radius"), puff.radius,
            Limits{.lowest = 0.0, .highest = kMaxLength, .above = true}, kRequired);
   io.value(kPuffKeys.at("temperature"), puff.temperature, between(0.0, kMaxTemperature));
   io.value(kPuffKeys.at("velocity"), puff.velocity, between(-kMaxSpeed, kMaxSpeed));
+  if (!species_names.empty()) io.value(kPuffKeys.at("species"), puff.species);
 }
 
 inline constexpr auto kChangeKeys = key_table(
@@ -71,7 +73,7 @@ inline constexpr auto kChangeKeys = key_table(
 
 /// The keys of one item of [[change]].
 template <class Visitor>
-void visit_change(Visitor& io, Change& change) {
+void visit_change(Visitor& io, Change& change, const std::vector<std::string>& species_names) {
   io.value(kChangeKeys.at("time"), change.time, at_least(0.0), kRequired);
   io.settings(kChangeKeys.at("set"), change.set);
   io.choice(kChangeKeys.at("ramp"), change.ramp, kRamps);
@@ -79,7 +81,7 @@ void visit_change(Visitor& io, Change& change) {
   io.value(kChangeKeys.at("until"), change.until, above(change.time),
            change.ramp || change.piston ? kRequired : kNotWithoutRamp);
   io.table("nudge", change.nudge, [](auto& io, Nudge& nudge) { visit_nudge(io, nudge); });
-  io.table("puff", change.puff, [](auto& io, Puff& puff) { visit_puff(io, puff); });
+  io.table("puff", change.puff, [&](auto& io, Puff& puff) { visit_puff(io, puff, species_names); });
 }
 
 }  // namespace clatter

@@ -117,6 +117,13 @@ inline constexpr std::array<Named<ObservableKind>, 17> kObservables = {
      {"collision_counts", ObservableKind::CollisionCounts},
      {"radial_distribution_profile", ObservableKind::RadialDistributionProfile}}};
 
+inline constexpr std::array<Named<Spread>, 3> kSpreads = {{{"uniform", Spread::Uniform},
+                                                           {"gaussian", Spread::Gaussian},
+                                                           {"lognormal", Spread::Lognormal}}};
+inline constexpr std::array<Named<KickLaw>, 3> kKickLaws = {{{"velocity", KickLaw::Velocity},
+                                                             {"energy", KickLaw::Energy},
+                                                             {"momentum", KickLaw::Momentum}}};
+
 inline constexpr std::array<Named<Ramp>, 1> kRamps = {{{"linear", Ramp::Linear}}};
 
 }  // namespace clatter

@@ -6,7 +6,7 @@
 #include "engine/scene/limits.h"
 #include "engine/scene/scene_input.h"
 
-// The keys of walls, particles and bulk driving, see scene_keys.h.
+// The keys of walls, particles, species and bulk driving, see scene_keys.h.
 
 namespace clatter {
 
@@ -25,6 +25,23 @@ template <class Visitor>
 void visit_roughness(Visitor& io, Roughness& roughness, Presence presence) {
   io.value(kRoughnessKeys.at("friction"), roughness.friction, at_least_or_infinite(0.0), presence);
   io.value(kRoughnessKeys.at("tangential_restitution"), roughness.tangential_restitution,
+           between(-1.0, 1.0), presence);
+}
+
+inline constexpr auto kOtherRoughnessKeys = key_table(
+    kRunCommands,
+    {{"friction", "1",
+      "Coulomb's coefficient of friction. Without a value that of all species. 0 is smooth."},
+     {"tangential_restitution", "1",
+      "Ratio of the tangential velocities of a contact that sticks. Without a value that of all "
+      "species."}});
+
+/// The keys of a roughness, as far as it differs for some species.
+template <class Visitor>
+void visit_other_roughness(Visitor& io, Roughness& roughness, Presence presence) {
+  io.value(kOtherRoughnessKeys.at("friction"), roughness.friction, at_least_or_infinite(0.0),
+           presence);
+  io.value(kOtherRoughnessKeys.at("tangential_restitution"), roughness.tangential_restitution,
            between(-1.0, 1.0), presence);
 }
 
@@ -67,6 +84,26 @@ void visit_wall(Visitor& io, Wall& wall) {
            wall.moves() ? kOptional : kNotOfWall);
 }
 
+inline constexpr auto kSpeciesWallKeys = key_table(
+    kRunCommands,
+    {{"restitution", "1", "Restitution of the wall for this species."},
+     {"drive_speed", "a/t", "Gain in normal velocity of this species at each bounce."},
+     {"temperature", "m a^2/t^2", "Temperature of the particles of this species that leave."}});
+
+/// The keys of a wall as one species meets it. The kind of the wall determines which are allowed.
+template <class Visitor>
+void visit_species_wall(Visitor& io, SpeciesWall& differences, const Wall& wall) {
+  const bool thermal = wall.kind == WallKind::Thermal;
+  const Presence of_touch = thermal ? kNotOfWall : kOptional;
+  io.value(kSpeciesWallKeys.at("restitution"), differences.restitution,
+           between(0.0, kMaxWallRestitution), of_touch);
+  visit_other_roughness(io, differences.roughness, of_touch);
+  io.value(kSpeciesWallKeys.at("drive_speed"), differences.drive_speed, between(0.0, kMaxSpeed),
+           wall.kind == WallKind::Driven ? kOptional : kNotOfWall);
+  io.value(kSpeciesWallKeys.at("temperature"), differences.temperature,
+           between(0.0, kMaxTemperature), thermal ? kOptional : kNotOfWall);
+}
+
 inline constexpr auto kStartKeys = key_table(
     kRunCommands,
     {{"layout", "", "Positions at time 0: random, on a lattice, or from a file."},
@@ -89,7 +126,8 @@ void visit_start(Visitor& io, Start& start, Presence spin_key) {
 
 inline constexpr auto kParticleKeys = key_table(
     kRunCommands,
-    {{"count", "1", "Number of particles. A scene has either this key or a fraction."},
+    {{"count", "1",
+      "Number of particles. A scene has this key, a fraction, or species with their own."},
      {"area_fraction", "1",
       "Share of the box that the disks fill. The number of disks is rounded to the nearest "
       "integer."},
@@ -117,12 +155,75 @@ void visit_particles(Visitor& io, SceneInput& input) {
   io.table("start", [&](auto& io) { visit_start(io, particles.start, input.spin_key()); });
 }
 
+inline constexpr auto kPolydispersityKeys = key_table(
+    kRunCommands,
+    {{"kind", "",
+      "Distribution of the diameters. A uniform one reaches from 1 - `width` to 1 + `width` times "
+      "the diameter. The others are cut at 3 standard deviations."},
+     {"width", "1",
+      "Half the range of a uniform distribution, or the standard deviation, over the mean "
+      "diameter."}});
+
+inline constexpr auto kSpeciesKeys = key_table(
+    kRunCommands,
+    {{"name", "", "Name of the species, of letters, digits, `_` and `-`."},
+     {"count", "1", "Number of its particles. A species has either this key or a fraction."},
+     {"area_fraction", "1", "Share of the box that its disks fill."},
+     {"volume_fraction", "1", "Share of the box that its spheres fill."},
+     {"diameter", "a", "Diameter of its particles. Of unequal ones the mean."},
+     {"mass", "m", "Mass of a particle with this diameter. Without a value the density sets it."},
+     {"density", "m/a^D",
+      "Mass over the D-th power of the diameter. At 1 all species are of one "
+      "material, and a particle of diameter 1 has mass 1."},
+     {"inertia", "1",
+      "Moment of inertia, as q = 4I/(m d^2). Without a value that of "
+      "`[particles]`."},
+     {"colour", "", "Colour in pictures, as \"#rrggbb\". Without a value one of the palette."}});
+
+/// The keys of one item of [[species]]. Its count is resolved after the whole scene is read.
+template <class Visitor>
+void visit_species(Visitor& io, SpeciesInput& input, int dimension, Presence spin_key) {
+  Species& species = input.species;
+  io.value(kSpeciesKeys.at("name"), species.name, Limits{}, kRequired);
+  io.value(kSpeciesKeys.at("count"), input.count, between(0, kMaxCount));
+  io.value(dimension == 2 ? kSpeciesKeys.at("area_fraction") : kSpeciesKeys.at("volume_fraction"),
+           input.packing_fraction, between(0.0, 1.0));
+  io.value(kSpeciesKeys.at("diameter"), species.diameter, between(kMinDiameter, kMaxDiameter));
+  io.value(kSpeciesKeys.at("mass"), species.mass, between(kMinMass, kMaxMass));
+  io.value(kSpeciesKeys.at("density"), species.density, between(kMinMass, kMaxMass),
+           species.mass ? kNotBesideMass : kOptional);
+  io.value(kSpeciesKeys.at("inertia"), species.inertia, between(kMinInertia, 1.0), spin_key);
+  io.table("polydispersity", species.polydispersity, [](auto& io, Polydispersity& spread) {
+    io.choice(kPolydispersityKeys.at("kind"), spread.kind, kSpreads);
+    io.value(kPolydispersityKeys.at("width"), spread.width,
+             Limits{.lowest = 0.0, .highest = 1.0, .above = true}, kRequired);
+  });
+  io.value(kSpeciesKeys.at("colour"), species.colour, Limits{});
+}
+
+inline constexpr auto kPairKeys = key_table(
+    kRunCommands, {{"species", "", "Names of two species, in either order, or twice the same."},
+                   {"restitution", "1",
+                    "Restitution of their collisions. Without a value that of "
+                    "`[particles]`."}});
+
+/// The keys of one item of [[pair]].
+template <class Visitor>
+void visit_pair(Visitor& io, SpeciesPair& pair) {
+  io.value(kPairKeys.at("species"), pair.species, between(2, 2), kRequired);
+  io.value(kPairKeys.at("restitution"), pair.restitution, between(0.0, 1.0));
+  visit_other_roughness(io, pair.roughness, kOptional);
+}
+
 inline constexpr auto kBulkDriveKeys = key_table(
     kRunCommands,
     {{"interval", "t", "Time between two kicks. A kick acts on all particles at once."},
      {"kick_speed", "a/t",
       "Standard deviation of a kick, per component of the velocity. The mean kick is removed."},
-     {"kick_spin", "1/t", "Standard deviation of the kick of a spin."}});
+     {"kick_spin", "1/t", "Standard deviation of the kick of a spin."},
+     {"law", "",
+      "Dependence of kicks on the mass m. `kick_speed` is that of mass 1. It is the same for all "
+      "masses, or falls as m^(-1/2) at equal power, or as 1/m at equal momentum."}});
 
 /// The keys of [bulk_drive], if the table exists.
 template <class Visitor>
@@ -130,6 +231,7 @@ void visit_bulk_drive(Visitor& io, BulkDrive& drive, Presence spin_key) {
   io.value(kBulkDriveKeys.at("interval"), drive.interval, above(0.0), kRequired);
   io.value(kBulkDriveKeys.at("kick_speed"), drive.kick_speed, between(0.0, kMaxSpeed), kRequired);
   io.value(kBulkDriveKeys.at("kick_spin"), drive.kick_spin, between(0.0, kMaxSpeed), spin_key);
+  io.choice(kBulkDriveKeys.at("law"), drive.law, kKickLaws);
 }
 
 }  // namespace clatter

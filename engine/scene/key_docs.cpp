@@ -131,6 +131,7 @@ KeyDescriber describe(int dimension, bool spins = true, Setting setting = {}) {
   SceneInput input;
   input.spins = spins;
   input.scene = default_scene(dimension);
+  input.species_names = {"NAME"};
   KeyDescriber describer(std::move(setting));
   visit_scene(describer, input);
   return describer;
@@ -227,14 +228,14 @@ void add_spheres(std::vector<KeyDoc>& docs) {
   }
 }
 
-/// Keeps the keys of one wall, as the table walls.SIDE.
+/// Keeps the keys of one wall, as the tables walls.SIDE and walls.SIDE.species.NAME.
 void join_walls(std::vector<KeyDoc>& docs) {
   const std::string first = std::string("walls.") + kSideNames[0];
   std::erase_if(docs, [&](const KeyDoc& doc) {
-    return doc.table.starts_with("walls.") && doc.table != first;
+    return doc.table.starts_with("walls.") && !doc.table.starts_with(first);
   });
   for (KeyDoc& doc : docs) {
-    if (doc.table == first) doc.table = "walls.SIDE";
+    if (doc.table.starts_with(first)) doc.table.replace(0, first.size(), "walls.SIDE");
   }
 }
 

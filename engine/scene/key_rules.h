@@ -51,6 +51,8 @@ inline constexpr Presence kNotWithoutFile = {Presence::Forbidden,
 inline constexpr Presence kNotBesideFile = {
     Presence::Forbidden, "has no meaning beside layout = \"file\": the file has the velocities",
     "remove it, or choose another layout"};
+inline constexpr Presence kNotBesideMass = {Presence::Forbidden, "has no meaning beside mass",
+                                            "remove one of the two"};
 inline constexpr Presence kNotWithoutSpins = {
     Presence::Forbidden, "has no meaning where nothing spins",
     "remove it, or make the particles or a wall rough: give friction above 0, or "

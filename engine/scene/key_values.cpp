@@ -47,7 +47,9 @@ std::string allowed_values(const std::string&, Limits) {
 }
 
 std::string allowed_values(const std::vector<std::string>&, Limits limits) {
-  return "a list of at most " + number_text(limits.highest) + " texts between quotes";
+  const bool exact = limits.lowest == limits.highest;
+  return std::string("a list of ") + (exact ? "" : "at most ") + number_text(limits.highest) +
+         " texts between quotes";
 }
 
 std::string allowed_values(const Vec2&, Limits limits) {

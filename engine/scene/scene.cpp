@@ -5,7 +5,46 @@
 namespace clatter {
 
 double Scene::packing_fraction() const {
-  return clatter::packing_fraction(dimension(), particles.count / box.prod());
+  double of_diameters = species.empty() ? particles.count : 0.0;  // sum of d^D
+  for (const Species& one : species) of_diameters += one.count * one.mean_power(dimension());
+  return clatter::packing_fraction(dimension(), of_diameters / box.prod());
+}
+
+double Scene::largest_diameter() const {
+  double largest = species.empty() ? 1.0 : 0.0;
+  for (const Species& one : species) largest = std::max(largest, one.largest_diameter());
+  return largest;
+}
+
+Grain Scene::grain(std::size_t number_of_species, int number, int of) const {
+  const Species& kind = species[number_of_species];
+  const double diameter = kind.diameter_of(number, of);
+  const double ratio = diameter / kind.diameter;
+  const double volume = dimension() == 2 ? ratio * ratio : ratio * ratio * ratio;
+  return {.radius = 0.5 * diameter,
+          .mass = kind.mass_in(dimension()) * volume,
+          .inertia = kind.inertia.value_or(particles.inertia),
+          .species = static_cast<std::uint32_t>(number_of_species)};
+}
+
+PairLaw Scene::pair_law(std::size_t first, std::size_t second) const {
+  PairLaw law{particles.restitution, particles.roughness};
+  if (species.empty()) return law;
+  const std::string &a = species[first].name, &b = species[second].name;
+  for (const SpeciesPair& pair : pairs) {
+    const bool same = (pair.species[0] == a && pair.species[1] == b) ||
+                      (pair.species[0] == b && pair.species[1] == a);
+    if (!same) continue;
+    law.restitution = pair.restitution.value_or(law.restitution);
+    law.roughness = with_differences(law.roughness, pair.roughness);
+  }
+  return law;
+}
+
+Wall Scene::wall(int side, std::size_t number) const {
+  const auto& differences = species_walls[static_cast<std::size_t>(side)];
+  if (number >= differences.size()) return *walls[static_cast<std::size_t>(side)];
+  return wall_of_species(*walls[static_cast<std::size_t>(side)], differences[number]);
 }
 
 VecX Scene::clear_corner() const {
@@ -38,7 +77,13 @@ bool View::hide_spins() {
 
 bool Scene::spins() const {
   bool any = particles.roughness.any();
-  for (const auto& wall : walls) any = any || (wall && wall->roughness.any());
+  const std::size_t kinds = std::max<std::size_t>(species.size(), 1);
+  for (std::size_t a = 0; a < kinds; ++a) {
+    for (std::size_t b = 0; b <= a; ++b) any = any || pair_law(a, b).roughness.any();
+    for (int side = 0; side < 2 * dimension(); ++side) {
+      any = any || (walls[side] && wall(side, a).roughness.any());
+    }
+  }
   return any;
 }
 
@@ -90,13 +135,30 @@ std::optional<double> Measure::sampling_interval(ObservableKind kind) const {
 }
 
 template <int D>
+static SpeciesLaws<D> species_laws(const Scene& scene) {
+  SpeciesLaws<D> laws;
+  for (std::size_t a = 0; a < scene.species.size(); ++a) {
+    for (std::size_t b = 0; b < scene.species.size(); ++b) {
+      laws.pairs.push_back(scene.pair_law(a, b));
+    }
+    auto& walls = laws.walls.emplace_back();
+    for (int side = 0; side < 2 * D; ++side) {
+      if (scene.walls[side]) walls[side] = scene.wall(side, a);
+    }
+  }
+  return laws;
+}
+
+template <int D>
 Model<D> model_of(const Scene& scene, std::uint64_t seed) {
   Model<D> model;
   model.box = scene.box;
   std::copy_n(scene.walls.begin(), model.walls.size(), model.walls.begin());
+  model.diameter = scene.largest_diameter();
   model.restitution = scene.particles.restitution;
   model.roughness = scene.particles.roughness;
   model.inertia = scene.particles.inertia;
+  if (!scene.species.empty()) model.species = species_laws<D>(scene);
   model.spins = scene.spins();
   model.gravity = scene.gravity ? Vec<D>(*scene.gravity) : Vec<D>(Vec<D>::Zero());
   model.bulk_drive = scene.bulk_drive;

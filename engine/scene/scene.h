@@ -14,6 +14,7 @@
 #include "engine/physics/state.h"
 #include "engine/scene/field.h"
 #include "engine/scene/observable_settings.h"
+#include "engine/scene/species.h"
 #include "engine/scene/view.h"
 #include "engine/vec.h"
 
@@ -32,9 +33,10 @@ struct Start {
   double spin_temperature = 0.0;  ///< T_rot = I <omega^2> >= 0, exact if particles spin
 };
 
-/// The particles; their diameter and mass are the units of length and mass.
+/// The particles; their diameter and mass are the units of length and mass. In a mixture the laws
+/// are those of species that have no others.
 struct Particles {
-  int count = 0;             ///< N >= 0; from the packing fraction if the scene has that
+  int count = 0;  ///< N >= 0; from the packing fraction if the scene has that; of all species
   double restitution = 1.0;  ///< alpha, 0..1
   Roughness roughness = {};
   double inertia = 0.5;  ///< q = 4I/(m a^2), 0..1: 1/2 for a uniform disk, 2/5 for a uniform sphere
@@ -122,10 +124,14 @@ struct Scene {
   /// their centres.
   VecX box = Vec2(20.0, 25.0);
   Particles particles;
+  std::vector<Species> species;              ///< of a mixture; empty: the particles are alike
+  std::vector<SpeciesPair> pairs;            ///< laws that differ; no two of the same species
   std::array<std::optional<Wall>, 6> walls;  ///< indexed by Side; a pair absent: periodic
-  std::optional<VecX> gravity;               ///< acceleration; absent: none
-  std::optional<BulkDrive> bulk_drive;       ///< absent: none
-  std::optional<double> contact_time;        ///< t_c > 0 of the TC model (theory 5.3); absent: off
+  /// [6][S] of each wall as each species meets it; the inner lists are empty without species
+  std::array<std::vector<SpeciesWall>, 6> species_walls;
+  std::optional<VecX> gravity;          ///< acceleration; absent: none
+  std::optional<BulkDrive> bulk_drive;  ///< absent: none
+  std::optional<double> contact_time;   ///< t_c > 0 of the TC model (theory 5.3); absent: off
   Measure measure;
   View view;
   std::vector<Change> changes;  ///< in any order; changes of the same time apply in this order
@@ -136,8 +142,18 @@ struct Scene {
   int dimension() const { return static_cast<int>(box.size()); }
   /// Whether the box is periodic along an axis (0: x, 1: y, 2: z).
   bool periodic(int axis) const { return !walls[2 * axis]; }
-  /// Packing fraction: N pi / (4 Lx Ly) for disks, N pi / (6 Lx Ly Lz) for spheres.
+  /// Share of the box that the particles fill: N pi / (4 Lx Ly) for disks of diameter 1,
+  /// N pi / (6 Lx Ly Lz) for spheres.
   double packing_fraction() const;
+  /// Upper limit of the diameters; 1 without species.
+  double largest_diameter() const;
+  /// What particle `number` of `of` particles of a species is, see Species::diameter_of(). Of
+  /// unequal diameters d it has the mass m_s (d/d_s)^D.
+  Grain grain(std::size_t species, int number, int of) const;
+  /// Contact law of two species, by their numbers; without species that of [particles].
+  PairLaw pair_law(std::size_t first, std::size_t second) const;
+  /// The wall at a side as a species meets it. The side must have one.
+  Wall wall(int side, std::size_t species) const;
   /// Largest displacement into the box of the near wall of each axis.
   VecX clear_corner() const;
   /// The size of the part of the box that no wall's motion reaches. It begins at clear_corner().
@@ -149,7 +165,7 @@ struct Scene {
 
 template <int D>
 Room<D> Scene::start_room() const {
-  Room<D> room{.box = clear_box()};
+  Room<D> room{.box = clear_box(), .walled = {}, .diameter = largest_diameter()};
   for (int axis = 0; axis < D; ++axis) room.walled[axis] = !periodic(axis);
   return room;
 }

@@ -48,19 +48,27 @@ static void check_speeds(const Scene& scene, const toml::table& root, const std:
   }
 }
 
-/// Throws if moving walls leave no room for a particle between them.
+/// Throws if a side of the box, or the room between moving walls, is too short for a particle.
 static void check_room(const Scene& scene, const toml::table& root, const std::string& file) {
+  const double largest = scene.largest_diameter();
   for (int axis = 0; axis < scene.dimension(); ++axis) {
     const double room = scene.clear_box()[axis];
-    // The box itself is wider than a diameter.
-    if (room > 1.0) continue;
+    if (room > largest) continue;
+    if (scene.box[axis] <= largest) {
+      throw UserError(place_of(root, "box.size", file),
+                      "the side " + number_text(scene.box[axis]) +
+                          " of the box is not longer than the largest diameter, " +
+                          number_text(largest),
+                      "choose a longer side, or smaller particles");
+    }
     const int near = 2 * axis, far = near + 1;
     const bool far_goes_farther =
         scene.walls[far]->innermost_travel() > scene.walls[near]->innermost_travel();
     throw UserError(place_of(root, wall_path(far_goes_farther ? far : near) + ".stroke", file),
                     "where the walls move farthest in, " + number_text(room) +
                         " diameters are left between them",
-                    "choose a smaller stroke or a larger box, so that it is more than one");
+                    "choose a smaller stroke or a larger box, so that it is more than " +
+                        (largest == 1.0 ? std::string("one") : number_text(largest)));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <utility>
 
 #include "engine/text.h"
 
@@ -99,18 +100,137 @@ static void replace(toml::table& into, toml::table& changes) {
   }
 }
 
+/// Removes the keys of a table that contradict new ones: the number of particles has three keys,
+/// their mass two.
+static void remove_rivals(toml::table& into, const toml::table& changes) {
+  using Keys = std::vector<const char*>;
+  for (const Keys& rivals :
+       {Keys{"count", "area_fraction", "volume_fraction"}, Keys{"mass", "density"}}) {
+    const auto is_set = [&](const char* key) { return changes.contains(key); };
+    if (std::ranges::none_of(rivals, is_set)) continue;
+    for (const char* key : rivals) into.erase(key);
+  }
+}
+
+constexpr std::string_view kSpeciesList = "species";
+constexpr std::string_view kPairList = "pair";
+
+/// The item of [[species]] with a name; nullptr without one.
+static toml::table* species_table(toml::table& root, std::string_view name) {
+  toml::array* species = root[kSpeciesList].as_array();
+  if (!species) return nullptr;
+  for (toml::node& item : *species) {
+    toml::table* table = item.as_table();
+    if (table && (*table)["name"].value<std::string_view>() == name) return table;
+  }
+  return nullptr;
+}
+
+/// The item of [[pair]] of two species; nullptr without one.
+static toml::table* pair_table(toml::table& root, std::string_view first, std::string_view second) {
+  toml::array* pairs = root[kPairList].as_array();
+  if (!pairs) return nullptr;
+  for (toml::node& item : *pairs) {
+    toml::table* table = item.as_table();
+    const toml::array* names = table ? (*table)["species"].as_array() : nullptr;
+    if (!names || names->size() != 2) continue;
+    const auto a = (*names)[0].value<std::string_view>(), b = (*names)[1].value<std::string_view>();
+    if ((a == first && b == second) || (a == second && b == first)) return table;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> species_names(const toml::table& root) {
+  std::vector<std::string> names;
+  if (const toml::array* species = root[kSpeciesList].as_array()) {
+    for (const toml::node& item : *species) {
+      const toml::table* table = item.as_table();
+      names.push_back(table ? (*table)["name"].value_or(std::string()) : "");
+    }
+  }
+  return names;
+}
+
+void refuse_species(const Place& place, std::string_view name,
+                    const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& one : names) all += (all.empty() ? "" : ", ") + one;
+  const std::string near(near_miss(name, names));
+  throw UserError(place, "there is no species " + in_quotes(name),
+                  all.empty()     ? "add [[species]] with this name"
+                  : !near.empty() ? "did you mean " + in_quotes(near) + "?"
+                                  : "the species are " + all);
+}
+
+/// The tables of an override whose path has a name after its first key. Throws for other values.
+static std::vector<std::pair<std::string, toml::table*>> named_tables(toml::table& changes,
+                                                                      const Place& place,
+                                                                      const char* wanted) {
+  std::vector<std::pair<std::string, toml::table*>> tables;
+  for (auto&& [name, node] : changes) {
+    toml::table* table = node.as_table();
+    if (!table) throw UserError(place, "the path has no key of a species", wanted);
+    tables.emplace_back(std::string(name.str()), table);
+  }
+  return tables;
+}
+
+/// Applies and removes the changes of species.NAME.KEY and pair.NAME.NAME.KEY.
+static void replace_in_lists(toml::table& root, toml::table& changes, const Place& place) {
+  const auto require = [&](const std::string& name) {
+    if (!species_table(root, name)) refuse_species(place, name, species_names(root));
+  };
+  if (toml::table* species = changes[kSpeciesList].as_table()) {
+    for (const auto& [name, values] : named_tables(*species, place, "write species.NAME.KEY")) {
+      require(name);
+      toml::table& item = *species_table(root, name);
+      remove_rivals(item, *values);
+      replace(item, *values);
+    }
+    changes.erase(kSpeciesList);
+  }
+  if (toml::table* pairs = changes[kPairList].as_table()) {
+    constexpr const char* kWanted = "write pair.NAME.NAME.KEY";
+    for (const auto& [first, inner] : named_tables(*pairs, place, kWanted)) {
+      require(first);
+      for (const auto& [second, values] : named_tables(*inner, place, kWanted)) {
+        require(second);
+        if (!root[kPairList].is_array()) root.insert_or_assign(kPairList, toml::array());
+        toml::table* item = pair_table(root, first, second);
+        if (!item) {
+          toml::array& list = *root[kPairList].as_array();
+          list.push_back(toml::table{{"species", toml::array{first, second}}});
+          item = list.back().as_table();
+        }
+        replace(*item, *values);
+      }
+    }
+    changes.erase(kPairList);
+  }
+}
+
 void apply_override(toml::table& root, const Override& change) {
   toml::table changes = parse_override(change);
-  // Each of these keys sets the number of particles, so each replaces the others.
-  constexpr std::array<const char*, 3> kNumbers = {"count", "area_fraction", "volume_fraction"};
+  replace_in_lists(root, changes, {std::string(kOverrideFile) + change.key});
   toml::table* particles = root["particles"].as_table();
   const toml::table* set = changes["particles"].as_table();
-  const bool sets_number =
-      set && std::ranges::any_of(kNumbers, [&](const char* key) { return set->contains(key); });
-  if (particles && sets_number) {
-    for (const char* key : kNumbers) particles->erase(key);
-  }
+  if (particles && set) remove_rivals(*particles, *set);
   replace(root, changes);
+}
+
+const toml::node* node_at(toml::table& root, std::string_view path) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const std::size_t dot = std::min(path.find('.', begin), path.size());
+    parts.push_back(path.substr(begin, dot - begin));
+    begin = dot + 1;
+  }
+  const bool of_species = parts.size() == 3 && parts[0] == kSpeciesList;
+  const bool of_pair = parts.size() == 4 && parts[0] == kPairList;
+  if (!of_species && !of_pair) return root.at_path(path).node();
+  const toml::table* table =
+      of_species ? species_table(root, parts[1]) : pair_table(root, parts[1], parts[2]);
+  return table ? table->get(parts.back()) : nullptr;
 }
 
 bool from_override(const Place& place) {

@@ -14,8 +14,20 @@ namespace clatter {
 /// Parses TOML. Throws UserError if it is malformed; `file` is the name for errors.
 toml::table parse_document(std::string_view text, const std::string& file);
 
-/// Sets the value of an override in the document.
+/// Sets the value of an override in the document. The path species.NAME.KEY is that of a key of a
+/// species, and pair.NAME.NAME.KEY that of a pair, which is added if it is absent. Throws UserError
+/// for a key that cannot be one, and for a species without an item.
 void apply_override(toml::table& root, const Override& change);
+
+/// The value at such a path; nullptr without one.
+const toml::node* node_at(toml::table& root, std::string_view path);
+
+/// [S] the names of the items of [[species]], before they are checked.
+std::vector<std::string> species_names(const toml::table& root);
+
+/// Throws UserError about a species that is not among `names`.
+[[noreturn]] void refuse_species(const Place& place, std::string_view name,
+                                 const std::vector<std::string>& names);
 
 /// Throws UserError at a key that is not among `known`, a list of dotted paths. The error suggests
 /// a similar known key.

@@ -17,6 +17,7 @@
 #include "engine/scene/scene_document.h"
 #include "engine/scene/scene_keys.h"
 #include "engine/scene/schedule.h"
+#include "engine/scene/species_checks.h"
 #include "engine/scene/state_file.h"
 #include "engine/system/read_file.h"
 #include "engine/text.h"
@@ -93,8 +94,10 @@ SceneInput read_keys(const toml::table& root, const std::string& file, bool spin
   SceneInput input;
   input.spins = spins;
   input.scene = default_scene(dimension_of(root));
+  input.species_names = species_names(root);
   KeyReader reader(root, file);
   visit_scene(reader, input);
+  for (const SpeciesInput& one : input.species) input.scene.species.push_back(one.species);
   return input;
 }
 
@@ -105,6 +108,7 @@ Scene read_scene(const toml::table& root, const std::string& file, StartFile sta
   check_dimension(root, file);
   SceneInput any;
   any.scene = default_scene(dimension_of(root));
+  any.species_names = species_names(root);
   KeyLister lister;
   visit_scene(lister, any);
   refuse_unknown_keys(root, lister.keys());
@@ -119,14 +123,18 @@ Scene read_scene(const toml::table& root, const std::string& file, StartFile sta
     scene.gravity->cwiseAbs().maxCoeff(&axis);
     scene.measure.profile_axis = static_cast<Axis>(axis);
   }
+  check_species(input, root, file);
+  resolve_species(input, root, file);
   check_scene(scene, root, file);
   const bool from_file = scene.particles.start.layout == Layout::File;
   if (from_file && start_file == StartFile::Skip) {
-    scene.particles.count = input.count.value_or(0);
+    scene.particles.count =
+        scene.species.empty() ? input.count.value_or(0) : count_of(scene.species);
     return scene;
   }
   if (from_file) load_state(scene);
-  scene.particles.count = resolve_count(input, root, file);
+  scene.particles.count =
+      scene.species.empty() ? resolve_count(input, root, file) : resolve_mixture(input, root, file);
   check_followed(scene, root, file);
   check_change_tables(scene, root, file);
   return scene;
@@ -184,8 +192,14 @@ static void hide_spins(Scene& scene) {
 // The text of a scene, with or without the keys, colours and fields of spins.
 template <class Writer>
 static std::string written(const Scene& scene, bool spins) {
-  SceneInput input{
-      .count = scene.particles.count, .packing_fraction = {}, .spins = spins, .scene = scene};
+  SceneInput input;
+  input.spins = spins;
+  input.scene = scene;
+  if (scene.species.empty()) input.count = scene.particles.count;
+  for (const Species& one : scene.species) {
+    input.species.push_back({.count = one.count, .packing_fraction = {}, .species = one});
+    input.species_names.push_back(one.name);
+  }
   if (!spins) hide_spins(input.scene);
   Writer writer;
   visit_scene(writer, input);
@@ -225,6 +239,9 @@ Scene with_settings(const Scene& scene, const std::vector<Override>& settings) {
   if (!spins) {
     made.particles.inertia = scene.particles.inertia;
     made.particles.start.spin_temperature = start.spin_temperature;
+    for (std::size_t k = 0; k < std::min(made.species.size(), scene.species.size()); ++k) {
+      made.species[k].inertia = scene.species[k].inertia;
+    }
     if (made.bulk_drive && scene.bulk_drive)
       made.bulk_drive->kick_spin = scene.bulk_drive->kick_spin;
     keep_hidden(made, scene);

@@ -26,7 +26,10 @@ inline constexpr auto kSceneKeys = key_table(
                    {"goal", "", "The aim of the scene as a lesson.", "view"},
                    {"try_this", "", "Proposal for an experiment in the window.", "view"}});
 inline constexpr auto kBoxKeys = key_table(
-    kRunCommands, {{"size", "a", "Sides of the box. Two numbers make disks, three make spheres."}});
+    kRunCommands,
+    {{"size", "a",
+      "Sides of the box. Two numbers make disks, three make spheres. Each side exceeds the largest "
+      "diameter."}});
 inline constexpr auto kGravityKeys =
     key_table(kRunCommands, {{"acceleration", "a/t^2", "Acceleration of all particles."}});
 inline constexpr auto kCollapseKeys = key_table(
@@ -45,16 +48,32 @@ void visit_scene(Visitor& io, SceneInput& input) {
   io.value(kSceneKeys.at("goal"), scene.goal);
   io.value(kSceneKeys.at("try_this"), scene.try_this);
   // Sides must exceed one diameter: a particle between walls needs room to move, and a particle
-  // must not touch its own periodic image.
+  // must not touch its own periodic image. The diameters of species are not known yet.
   io.table("box", [&](auto& io) {
     io.value(kBoxKeys.at("size"), scene.box,
-             Limits{.lowest = 1.0, .highest = kMaxLength, .above = true});
+             Limits{.lowest = input.species_names.empty() ? 1.0 : 0.0,
+                    .highest = kMaxLength,
+                    .above = true});
   });
   io.table("particles", [&](auto& io) { visit_particles(io, input); });
+  const int dimension = scene.dimension();
+  io.list("species", input.species, [&](auto& io, SpeciesInput& species) {
+    visit_species(io, species, dimension, input.spin_key());
+  });
+  io.list("pair", scene.pairs, [](auto& io, SpeciesPair& pair) { visit_pair(io, pair); });
   io.table("walls", [&](auto& io) {
-    for (int side = 0; side < 2 * scene.dimension(); ++side) {
-      io.table(kSideNames[side], scene.walls[side],
-               [](auto& io, Wall& wall) { visit_wall(io, wall); });
+    for (int side = 0; side < 2 * dimension; ++side) {
+      io.table(kSideNames[side], scene.walls[side], [&](auto& io, Wall& wall) {
+        visit_wall(io, wall);
+        auto& differences = scene.species_walls[static_cast<std::size_t>(side)];
+        differences.resize(input.species_names.size());
+        io.table("species", [&](auto& io) {
+          for (std::size_t k = 0; k < differences.size(); ++k) {
+            io.table(input.species_names[k],
+                     [&](auto& io) { visit_species_wall(io, differences[k], wall); });
+          }
+        });
+      });
     }
   });
   io.table("gravity", scene.gravity, [&](auto& io, VecX& acceleration) {
@@ -67,10 +86,10 @@ void visit_scene(Visitor& io, SceneInput& input) {
   io.table("collapse", [&](auto& io) {
     io.value(kCollapseKeys.at("contact_time"), scene.contact_time, above(0.0));
   });
-  const int dimension = scene.dimension();
   io.table("measure", [&](auto& io) { visit_measure(io, scene.measure, dimension); });
   io.table("view", [&](auto& io) { visit_view(io, scene.view, dimension); });
-  io.list("change", scene.changes, [](auto& io, Change& change) { visit_change(io, change); });
+  io.list("change", scene.changes,
+          [&](auto& io, Change& change) { visit_change(io, change, input.species_names); });
 }
 
 }  // namespace clatter

@@ -22,16 +22,27 @@ bool may_change_live(std::string_view key) {
   for (const std::string_view table : {"gravity", "bulk_drive", "collapse"}) {
     if (key.substr(0, key.find('.')) == table) return true;
   }
-  return key.starts_with("walls.");
+  return key.starts_with("walls.") || (key.starts_with("pair.") && key != "pair.species");
 }
 
 static void require_live(const std::vector<Override>& settings) {
   for (const Override& setting : settings) {
     if (may_change_live(setting.key)) continue;
+    if (setting.key.starts_with("species.")) {
+      throw UserError({}, "'" + setting.key + "' cannot change while the gas moves",
+                      "change laws of pairs only: larger particles would overlap, and another mass "
+                      "or inertia would change the energy");
+    }
     throw UserError(
         {}, "'" + setting.key + "' cannot change while the gas moves",
         "change laws only: restitution, friction, walls, gravity, bulk_drive, collapse");
   }
+}
+
+static void require_same_grains(const Scene& before, const Scene& now) {
+  if (before.species.empty() || before.particles.inertia == now.particles.inertia) return;
+  throw UserError({}, "'particles.inertia' cannot change while a mixture moves",
+                  "another inertia would change the energy: start again");
 }
 
 static void require_same_sides(const Scene& before, const Scene& now) {
@@ -41,30 +52,60 @@ static void require_same_sides(const Scene& before, const Scene& now) {
   }
 }
 
-// The number of a rough partner's key that the scene leaves out; absent for other keys.
+// The partner of a contact whose keys begin with `owner`, as a wall: particles, a pair of species,
+// a wall, or a wall as a species meets it. Absent for other keys.
+static std::optional<Wall> partner_of(const Scene& laws, const std::string& owner) {
+  const auto of_law = [](const PairLaw& law) {
+    return Wall{.restitution = law.restitution, .roughness = law.roughness};
+  };
+  if (owner == "particles") return of_law({laws.particles.restitution, laws.particles.roughness});
+  for (std::size_t a = 0; a < laws.species.size(); ++a) {
+    const std::string& first = laws.species[a].name;
+    for (std::size_t b = 0; b < laws.species.size(); ++b) {
+      if (owner == "pair." + first + '.' + laws.species[b].name) return of_law(laws.pair_law(a, b));
+    }
+  }
+  for (int side = 0; side < 2 * laws.dimension(); ++side) {
+    if (!laws.walls[side]) continue;
+    const std::string path = std::string("walls.") + kSideNames[side];
+    if (owner == path) return laws.walls[side];
+    for (std::size_t a = 0; a < laws.species.size(); ++a) {
+      if (owner == path + ".species." + laws.species[a].name) return laws.wall(side, a);
+    }
+  }
+  return std::nullopt;
+}
+
+// The number in force of a partner's key that the scene leaves out; absent for other keys.
 static std::optional<double> default_in_force(const Scene& laws, const std::string& key) {
   const std::size_t dot = key.rfind('.');
   const std::string owner = key.substr(0, dot), name = key.substr(dot + 1);
-  const Roughness* rough = owner == "particles" ? &laws.particles.roughness : nullptr;
-  for (std::size_t side = 0; side < laws.walls.size(); ++side) {
-    if (laws.walls[side] && owner == std::string("walls.") + kSideNames[side]) {
-      rough = &laws.walls[side]->roughness;
-    }
-  }
-  if (!rough || (!rough->friction && !rough->tangential_restitution)) return std::nullopt;
-  if (name == "friction") return rough->friction_in_force();
-  if (name == "tangential_restitution") return rough->tangential_restitution_in_force();
+  const auto partner = partner_of(laws, owner);
+  if (!partner) return std::nullopt;
+  if (name == "restitution") return partner->restitution;
+  if (name == "drive_speed") return partner->drive_speed;
+  if (name == "temperature") return partner->temperature;
+  const Roughness& rough = partner->roughness;
+  if (!rough.friction && !rough.tangential_restitution) return std::nullopt;
+  if (name == "friction") return rough.friction_in_force();
+  if (name == "tangential_restitution") return rough.tangential_restitution_in_force();
   return std::nullopt;
+}
+
+// The number at a path; absent without one.
+static std::optional<double> number_at(toml::table& root, const std::string& path) {
+  const toml::node* node = node_at(root, path);
+  return node ? node->value<double>() : std::nullopt;
 }
 
 // The numbers of a ramp after a share of the way from the current values to the targets.
 static std::vector<Override> on_the_way(const Scene& laws, const std::vector<Override>& targets,
                                         double share) {
-  const toml::table now = parse_document(scene_to_toml(laws), "");
+  toml::table now = parse_document(scene_to_toml(laws), "");
   std::vector<Override> settings;
   for (const auto& [key, value] : targets) {
     const toml::table wanted = parse_document("value = " + value, "");
-    const auto given = now.at_path(key).value<double>();
+    const auto given = number_at(now, key);
     const auto from = given ? given : default_in_force(laws, key);
     const auto to = wanted["value"].value<double>();
     if (!from || !to) {
@@ -140,6 +181,7 @@ void Schedule::change_to(const std::vector<Override>& settings) {
   require_live(settings);
   Scene changed = with_settings(laws_, settings);
   require_same_sides(laws_, changed);
+  require_same_grains(laws_, changed);
   laws_ = std::move(changed);
 }
 

@@ -15,6 +15,7 @@
 #include "engine/error.h"
 #include "engine/scene/csv_line.h"
 #include "engine/scene/limits.h"
+#include "engine/scene/scene_document.h"
 #include "engine/text.h"
 #include "engine/whole_number.h"
 
@@ -22,18 +23,27 @@ namespace clatter {
 
 namespace {
 
-// The columns of a state: D coordinates, D velocities, and the components of the spin.
+// The columns of a state: D coordinates, D velocities, the components of the spin, and those of
+// mixtures.
 template <int D>
 constexpr int kSpinColumn = 2 * D;
 template <int D>
-constexpr int kColumns = kSpinColumn<D> + Spin<D>::SizeAtCompileTime;
+constexpr int kDiameterColumn = kSpinColumn<D> + Spin<D>::SizeAtCompileTime;
+template <int D>
+constexpr int kMassColumn = kDiameterColumn<D> + 1;
+template <int D>
+constexpr int kSpeciesColumn = kDiameterColumn<D> + 2;
+template <int D>
+constexpr int kColumns = kDiameterColumn<D> + 3;
 template <int D>
 constexpr std::array<std::string_view, kColumns<D>> kNames;
 template <>
-constexpr std::array<std::string_view, kColumns<2>> kNames<2> = {"x", "y", "vx", "vy", "omega"};
+constexpr std::array<std::string_view, kColumns<2>> kNames<2> = {
+    "x", "y", "vx", "vy", "omega", "diameter", "mass", "species"};
 template <>
 constexpr std::array<std::string_view, kColumns<3>> kNames<3> = {
-    "x", "y", "z", "vx", "vy", "vz", "omega_x", "omega_y", "omega_z"};
+    "x",       "y",       "z",       "vx",       "vy",   "vz",
+    "omega_x", "omega_y", "omega_z", "diameter", "mass", "species"};
 
 // The names of the columns from `begin` to before `end`, joined.
 template <int D>
@@ -64,7 +74,7 @@ class Reader {
     read_header();
     State<D> state;
     while (next_line()) read_particle(state);
-    refuse_overlaps(state.positions);
+    refuse_overlaps(state);
     return state;
   }
 
@@ -76,9 +86,13 @@ class Reader {
   void read_particle(State<D>& state);
   double number_in(const CsvCell& cell) const;
   void check_number(const CsvCell& cell, int column, double number) const;
-  void check_place(const CsvCell& cell, int axis, double centre) const;
-  void refuse_overlaps(const std::vector<Vec<D>>& centres) const;
-  [[noreturn]] void refuse_pair(std::size_t a, std::size_t b, double distance) const;
+  void check_place(const CsvCell& cell, int axis, double centre, double radius) const;
+  std::uint32_t species_in(const CsvCell& cell) const;
+  Grain grain_of(const std::vector<CsvCell>& cells) const;
+  const CsvCell* cell_of(const std::vector<CsvCell>& cells, int column) const;
+  double radius_of(const State<D>& state, std::size_t particle) const;
+  void refuse_overlaps(const State<D>& state) const;
+  [[noreturn]] void refuse_pair(std::size_t a, std::size_t b, double overlap) const;
 
   std::string_view rest_;
   std::string_view line_;
@@ -110,8 +124,9 @@ int Reader<D>::column_of(const CsvCell& cell) const {
     const std::string near(near_miss(cell.text, names));
     throw UserError(place_of(cell), "unknown column " + in_quotes(cell.text),
                     near.empty()
-                        ? "the columns are " + names_of<D>(0, kSpinColumn<D>) +
-                              " and, for spins, " + names_of<D>(kSpinColumn<D>, kColumns<D>)
+                        ? "the columns are " + names_of<D>(0, kSpinColumn<D>) + ", for spins " +
+                              names_of<D>(kSpinColumn<D>, kDiameterColumn<D>) +
+                              ", and of mixtures " + names_of<D>(kDiameterColumn<D>, kColumns<D>)
                         : "did you mean " + in_quotes(near) + "?");
   }
   const auto column = static_cast<int>(name - kNames<D>.begin());
@@ -119,7 +134,12 @@ int Reader<D>::column_of(const CsvCell& cell) const {
     throw UserError(place_of(cell), "a second column " + in_quotes(cell.text),
                     "remove one of them");
   }
-  if (column >= kSpinColumn<D> && !scene_.spins()) {
+  if (column >= kDiameterColumn<D> && scene_.species.empty()) {
+    throw UserError(place_of(cell),
+                    "the column " + in_quotes(cell.text) + " has no meaning without species",
+                    "remove the column, or add [[species]] to the scene");
+  }
+  if (column >= kSpinColumn<D> && column < kDiameterColumn<D> && !scene_.spins()) {
     throw UserError(place_of(cell),
                     "the column " + in_quotes(cell.text) + " has no meaning where nothing spins",
                     "remove the column, or make the particles or a wall rough");
@@ -137,6 +157,75 @@ void Reader<D>::read_header() {
                     "the column " + in_quotes(kNames<D>[column]) + " is missing",
                     header_advice<D>());
   }
+  const bool named = std::ranges::find(columns_, kSpeciesColumn<D>) != columns_.end();
+  if (scene_.species.size() > 1 && !named) {
+    throw UserError(place_of(CsvCell{}), "the column \"species\" is missing",
+                    "add it, with the name of the species of each particle");
+  }
+}
+
+// The cell of a column; nullptr if the file lacks the column.
+template <int D>
+const CsvCell* Reader<D>::cell_of(const std::vector<CsvCell>& cells, int column) const {
+  const auto found = std::ranges::find(columns_, column);
+  return found == columns_.end() ? nullptr
+                                 : &cells[static_cast<std::size_t>(found - columns_.begin())];
+}
+
+template <int D>
+std::uint32_t Reader<D>::species_in(const CsvCell& cell) const {
+  if (const auto number = find_species(scene_.species, cell.text)) {
+    return static_cast<std::uint32_t>(*number);
+  }
+  std::vector<std::string> names;
+  for (const Species& one : scene_.species) names.push_back(one.name);
+  refuse_species(place_of(cell), cell.text, names);
+}
+
+// What a particle of a mixture is. Particles of a species have its diameter, unless it has unequal
+// ones, and the mass of its material without a column.
+template <int D>
+Grain Reader<D>::grain_of(const std::vector<CsvCell>& cells) const {
+  constexpr double kRounding = 1e-9;  // of diameters in files, relative
+  const CsvCell* name = cell_of(cells, kSpeciesColumn<D>);
+  const std::uint32_t number = name ? species_in(*name) : 0;
+  const Species& species = scene_.species[number];
+  Grain grain = scene_.grain(number, 0, 1);
+  if (const CsvCell* cell = cell_of(cells, kDiameterColumn<D>)) {
+    const double diameter = number_in(*cell);
+    const double least = species.smallest_diameter() * (1.0 - kRounding);
+    const double most = species.largest_diameter() * (1.0 + kRounding);
+    if (!(diameter >= least && diameter <= most)) {
+      throw UserError(
+          place_of(*cell),
+          "a particle of the species " + in_quotes(species.name) + " has the diameter " +
+              number_text(diameter),
+          species.polydispersity
+              ? "give a number between " + number_text(species.smallest_diameter()) + " and " +
+                    number_text(species.largest_diameter())
+              : "give " + number_text(species.diameter) + ", or give the species a polydispersity");
+    }
+    if (species.polydispersity) {
+      const double ratio = diameter / (2.0 * grain.radius);
+      grain.mass *= D == 2 ? ratio * ratio : ratio * ratio * ratio;
+      grain.radius = 0.5 * diameter;
+    }
+  }
+  if (const CsvCell* cell = cell_of(cells, kMassColumn<D>)) {
+    const double mass = number_in(*cell);
+    const bool differs = std::fabs(mass - grain.mass) > kRounding * grain.mass;
+    if (!(mass >= kMinMass && mass <= kMaxMass) || (differs && !species.polydispersity)) {
+      throw UserError(
+          place_of(*cell),
+          "a particle of the species " + in_quotes(species.name) + " has the mass " +
+              number_text(mass),
+          species.polydispersity
+              ? "give a number between " + number_text(kMinMass) + " and " + number_text(kMaxMass)
+              : "give " + number_text(grain.mass) + ", or the mass of the species in the scene");
+    }
+    if (species.polydispersity) grain.mass = mass;
+  }
+  return grain;
 }
 
 template <int D>
@@ -148,9 +237,7 @@ double Reader<D>::number_in(const CsvCell& cell) const {
 
 template <int D>
 void Reader<D>::check_number(const CsvCell& cell, int column, double number) const {
-  if (column < D) {
-    check_place(cell, column, number);
-  } else if (std::fabs(number) > kMaxSpeed) {
+  if (column >= D && std::fabs(number) > kMaxSpeed) {
     throw UserError(place_of(cell), std::string(kNames<D>[column]) + " is " + number_text(number),
                     "give at most " + number_text(kMaxSpeed) + " either way");
   }
@@ -159,7 +246,7 @@ void Reader<D>::check_number(const CsvCell& cell, int column, double number) con
 /// Throws unless a centre is in the box along a periodic axis, or between the walls at their
 /// positions of time 0. A moving wall may then be outside of the box.
 template <int D>
-void Reader<D>::check_place(const CsvCell& cell, int axis, double centre) const {
+void Reader<D>::check_place(const CsvCell& cell, int axis, double centre, double radius) const {
   const std::string name(kNames<D>[axis]);
   const double length = scene_.box[axis];
   if (scene_.periodic(axis)) {
@@ -169,8 +256,8 @@ void Reader<D>::check_place(const CsvCell& cell, int axis, double centre) const 
   }
   const Wall& near = *scene_.walls[2 * axis];
   const Wall& far = *scene_.walls[2 * axis + 1];
-  const double low = 0.5 + near.start_travel();
-  const double high = length - 0.5 - far.start_travel();
+  const double low = radius + near.start_travel();
+  const double high = length - radius - far.start_travel();
   if (centre >= low - kStartRounding && centre <= high + kStartRounding) return;
   const int side = 2 * axis + (centre > high ? 1 : 0);
   const bool moves = scene_.walls[side]->moves();
@@ -192,9 +279,15 @@ void Reader<D>::read_particle(State<D>& state) {
   }
   std::array<double, kColumns<D>> numbers{};
   for (std::size_t k = 0; k < cells.size(); ++k) {
+    if (columns_[k] >= kDiameterColumn<D>) continue;
     double& number = numbers[static_cast<std::size_t>(columns_[k])];
     number = number_in(cells[k]);
     check_number(cells[k], columns_[k], number);
+  }
+  if (!scene_.species.empty()) state.grains.push_back(grain_of(cells));
+  for (int axis = 0; axis < D; ++axis) {
+    check_place(*cell_of(cells, axis), axis, numbers[static_cast<std::size_t>(axis)],
+                radius_of(state, state.positions.size()));
   }
   state.positions.emplace_back(Eigen::Map<const Vec<D>>(&numbers[0]));
   state.velocities.emplace_back(Eigen::Map<const Vec<D>>(&numbers[D]));
@@ -205,23 +298,29 @@ void Reader<D>::read_particle(State<D>& state) {
 }
 
 template <int D>
-void Reader<D>::refuse_pair(std::size_t a, std::size_t b, double distance) const {
+double Reader<D>::radius_of(const State<D>& state, std::size_t particle) const {
+  return state.grains.empty() ? 0.5 : state.grains[particle].radius;
+}
+
+template <int D>
+void Reader<D>::refuse_pair(std::size_t a, std::size_t b, double overlap) const {
   const auto [first, second] = std::minmax(particle_lines_[a], particle_lines_[b]);
   throw UserError({file_, second, 1},
                   fmt::format("the particles of lines {} and {} overlap by {:.3g} diameters", first,
-                              second, 1.0 - distance),
+                              second, overlap),
                   "move them apart, or remove one");
 }
 
 template <int D>
-void Reader<D>::refuse_overlaps(const std::vector<Vec<D>>& centres) const {
-  NearParticles<D> near(model_of<D>(scene_, 0).domain(), 1.0);
-  for (std::uint32_t i = 0; i < centres.size(); ++i) {
-    near.visit(centres[i], [&](std::uint32_t j, const Vec<D>& way) {
-      const double distance = way.norm();
-      if (distance < 1.0 - kStartRounding) refuse_pair(i, j, distance);
+void Reader<D>::refuse_overlaps(const State<D>& state) const {
+  const double largest = scene_.largest_diameter();
+  NearParticles<D> near(model_of<D>(scene_, 0).domain(), largest);
+  for (std::uint32_t i = 0; i < state.positions.size(); ++i) {
+    near.visit(state.positions[i], [&](std::uint32_t j, const Vec<D>& way) {
+      const double overlap = radius_of(state, i) + radius_of(state, j) - way.norm();
+      if (overlap > kStartRounding * largest) refuse_pair(i, j, overlap);
     });
-    near.add(centres[i]);
+    near.add(state.positions[i]);
   }
 }
 
@@ -234,9 +333,11 @@ AnyState parse_state(std::string_view csv, const std::string& file, const Scene&
 }
 
 template <int D>
-std::string state_to_csv(const State<D>& state) {
+std::string state_to_csv(const State<D>& state, const std::vector<Species>& species) {
   const bool spins = !state.spins.empty();
-  std::string csv = names_of<D>(0, spins ? kColumns<D> : kSpinColumn<D>, ",") + '\n';
+  std::string csv = names_of<D>(0, spins ? kDiameterColumn<D> : kSpinColumn<D>, ",");
+  if (!state.grains.empty()) csv += ',' + names_of<D>(kDiameterColumn<D>, kColumns<D>, ",");
+  csv += '\n';
   for (std::size_t i = 0; i < state.positions.size(); ++i) {
     std::string line;
     const auto add = [&](const auto& numbers) {
@@ -245,12 +346,17 @@ std::string state_to_csv(const State<D>& state) {
     add(state.positions[i]);
     add(state.velocities[i]);
     if (spins) add(state.spins[i]);
+    if (!state.grains.empty()) {
+      const Grain& grain = state.grains[i];
+      add(std::array{2.0 * grain.radius, grain.mass});
+      line += ',' + species[grain.species].name;
+    }
     csv += line + '\n';
   }
   return csv;
 }
 
-template std::string state_to_csv(const State<2>&);
-template std::string state_to_csv(const State<3>&);
+template std::string state_to_csv(const State<2>&, const std::vector<Species>&);
+template std::string state_to_csv(const State<3>&, const std::vector<Species>&);
 
 }  // namespace clatter
