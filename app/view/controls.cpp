@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <type_traits>
 
 #include "app/view/style.h"
 #include "engine/scene/key_writer.h"
@@ -178,8 +179,9 @@ double Controls::limited(const Slider& slider, double value) {
   if (within == value) return value;
   const char* side = value > slider.high ? "at most" : "at least";
   const std::string number = fmt::sprintf(slider.logarithmic ? "%g" : slider.format, within);
-  session_.report(fmt::format("{}: {} {}{}{}{}{}", slider.name, side, number, *slider.unit ? " " : "",
-                            slider.unit, *slider.limit ? "; " : "", slider.limit));
+  session_.report(fmt::format("{}: {} {}{}{}{}{}", slider.name, side, number,
+                              *slider.unit ? " " : "", slider.unit, *slider.limit ? "; " : "",
+                              slider.limit));
   return within;
 }
 
@@ -275,23 +277,34 @@ void Controls::law(const Slider& slider, double value, double usual) {
   if (moved.reset) set(text(value), text(usual));
 }
 
-void Controls::whole(const Slider& slider, int value, int usual) {
+template <class Number>
+void Controls::restart(const Slider& slider, Number value, Number usual) {
+  const auto nearest = [](double number) {
+    return std::is_same_v<Number, int> ? std::round(number) : number;
+  };
   double shown = holding_ == slider.key ? held_ : value;
   const Moved moved = draw(slider, shown, usual, slider.key);
-  const auto put = [&](double number) {
+  const auto put = [&](Number number) {
     if (number == value) return;
-    set({{slider.key, std::to_string(value)}},
-        {{slider.key, value_text(static_cast<int>(number))}});
+    set({{slider.key, value_text(value)}}, {{slider.key, value_text(number)}});
   };
   if (moved.changed) {
     holding_ = slider.key;
-    held_ = std::round(shown);
+    held_ = nearest(shown);
   }
   if (moved.let_go) {
-    put(std::round(shown));
+    put(static_cast<Number>(nearest(shown)));
     holding_.clear();
   }
   if (moved.reset) put(usual);
+}
+
+void Controls::whole(const Slider& slider, int value, int usual) {
+  restart(slider, value, usual);
+}
+
+void Controls::of_start(const Slider& slider, double value, double usual) {
+  restart(slider, value, usual);
 }
 
 void Controls::component(const Slider& slider, const VecX& vector, int axis, const VecX& usual,

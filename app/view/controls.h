@@ -66,6 +66,9 @@ class Controls {
   void law(const Slider& slider, double value, double usual);
   /// Slider for an integer. The value is set when the slider is released, and restarts the gas.
   void whole(const Slider& slider, int value, int usual);
+  /// Slider for a number of the start. The value is set when the slider is released, and restarts
+  /// the gas.
+  void of_start(const Slider& slider, double value, double usual);
   /// Slider for one component of a vector. Without `at_once` the value is set when the slider is
   /// released.
   void component(const Slider& slider, const VecX& vector, int axis, const VecX& usual,
@@ -121,6 +124,8 @@ class Controls {
   };
 
   Moved draw(const Slider& slider, double& value, double usual, const std::string& place);
+  template <class Number>
+  void restart(const Slider& slider, Number value, Number usual);
   template <class Field>
   bool named_field(const char* key, const char* name, const char* help, const Field& field);
   double limited(const Slider& slider, double value);

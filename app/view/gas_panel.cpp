@@ -47,7 +47,8 @@ void gas_panel(Session& session, Controls& controls) {
   if (!controls.group("Gas")) return;
   const Scene& scene = session.scene();
   const bool disks = scene.dimension() == 2;
-  if (session.opened().particles.start.layout != Layout::File) {
+  const bool mixture = !scene.species.empty();
+  if (!mixture && session.opened().particles.start.layout != Layout::File) {
     const int capacity = with_dimension(scene.dimension(), [&](auto dimension) {
       return lattice_capacity(scene.start_room<dimension>());
     });
@@ -70,10 +71,12 @@ void gas_panel(Session& session, Controls& controls) {
   controls.law({.key = "particles.restitution",
                 .name = "Restitution",
                 .symbol = "α",
-                .help = "Share of the normal velocity that a collision of two particles keeps; "
-                        "1: elastic"},
+                .help = mixture ? "Of each two species without a value of their own"
+                                : "Share of the normal velocity that a collision of two particles "
+                                  "keeps; 1: elastic"},
                scene.particles.restitution, session.opened().particles.restitution);
   roughness(session, controls);
+  species_controls(session, controls);
 }
 
 }  // namespace clatter

@@ -33,7 +33,8 @@ std::vector<std::string> usual_sliders(const Scene& scene) {
     }
   }
   if (scene.particles.restitution == 1.0) names.emplace_back("particles.restitution");
-  if (scene.particles.start.layout != Layout::File) names.emplace_back("particles.count");
+  if (scene.particles.start.layout != Layout::File && scene.species.empty())
+    names.emplace_back("particles.count");
   if (names.size() > Lecture::kMostSliders) names.resize(Lecture::kMostSliders);
   return names;
 }

@@ -139,6 +139,12 @@ void MouseTools::sliders(const Scene& scene, Controls& controls) {
                    .format = "%.0f"},
                   count_, kUsualCount);
   count_ = std::round(count_);
+  if (scene.species.empty()) return;
+  std::vector<std::string> names;
+  for (const Species& one : scene.species) names.push_back(one.name);
+  species_ = std::min(species_, static_cast<int>(names.size()) - 1);
+  controls.choice("tool.species", "Species", "Of the particles that a click adds", names, species_,
+                  0);
 }
 
 double MouseTools::radius(const Scene& scene) const {
@@ -213,6 +219,12 @@ void MouseTools::scale(Session& session) {
   session.nudge(nudge);
 }
 
+// The name of the species that a click adds; empty without species.
+std::string MouseTools::species_of(const Scene& scene) const {
+  const auto number = static_cast<std::size_t>(species_);
+  return number < scene.species.size() ? scene.species[number].name : "";
+}
+
 // Adds particles of the temperature of the gas, or of temperature 1 in a gas at rest.
 void MouseTools::add(Session& session) {
   const double temperature = session.frame().snapshot.temperature;
@@ -220,7 +232,9 @@ void MouseTools::add(Session& session) {
       .count = static_cast<int>(count_),
       .centre = target_->place,
       .radius = radius(session.scene()),
-      .temperature = temperature > 0.0 ? std::stod(fmt::format("{:.3g}", temperature)) : 1.0};
+      .temperature = temperature > 0.0 ? std::stod(fmt::format("{:.3g}", temperature)) : 1.0,
+      .velocity = {},
+      .species = species_of(session.scene())};
   press_->acts.push_back({.puff = puff});
   session.add(puff);
 }

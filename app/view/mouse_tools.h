@@ -95,6 +95,7 @@ class MouseTools {
   std::optional<Target> target_at(const Session& session, const WindowMap& map, Tool tool) const;
   void follow(const Snapshot& gas);
   void scale(Session& session);
+  std::string species_of(const Scene& scene) const;
   void add(Session& session);
   void release(Session& session, const WindowMap& map);
   VecX velocity(const Frame& frame, const WindowMap& map) const;
@@ -105,6 +106,7 @@ class MouseTools {
   std::optional<Tool> tool_;
   std::optional<double> radius_;  // absent: as usual for the box
   double count_ = kUsualCount;    // particles that a click adds
+  int species_ = 0;               // number of their species in a mixture
   bool pressed_ = false;          // since the tool was chosen
   std::optional<Target> target_;  // absent: the mouse is elsewhere
   std::optional<Press> press_;    // while the button is down

@@ -14,6 +14,9 @@ namespace clatter {
 
 /// Number of particles and their collision laws.
 void gas_panel(Session& session, Controls& controls);
+/// Particles of each species of a mixture, and the restitution of each two; nothing without
+/// species.
+void species_controls(Session& session, Controls& controls);
 /// Gases in step with this one. `titles` are the names of all gases; empty: there is one.
 void compare_panel(Session& session, Controls& controls, const std::vector<std::string>& titles);
 /// Dimension, box, walls, gravity and bulk drive.

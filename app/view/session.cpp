@@ -421,6 +421,7 @@ void Session::add(const Puff& puff) {
                       {"centre", std::vector(puff.centre.begin(), puff.centre.end())},
                       {"radius", puff.radius},
                       {"temperature", puff.temperature},
+                      {"species", puff.species},
                       {"command", sent_ + 1}});
   send(command::AddPuff{puff});
 }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "engine/scene/scene_file.h"
 #include "tests/support/messages.h"
 #include "tests/window/panel_actions.h"
 
@@ -68,6 +69,32 @@ const std::vector<SliderMeaning> kSphereSliders = {
     {"view.slices.x.position", "/view/slices/0/position", 0.0, 19.0, "Position 4.5 a"},
     {"view.slices.z.position", "/view/slices/1/position", 0.0, 21.0, "Position 6.5 a"}};
 
+// Those of the species that is chosen in the panel, the first, and of its pairs.
+const std::vector<SliderMeaning> kSpeciesSliders = {
+    {"species.fine.count", "/species/0/count", 1.0, 10000.0, "Disks N 40", true},
+    {"species.fine.diameter", "/species/0/diameter", 0.1, 10.0, "Diameter d 0.60 a", true},
+    {"species.fine.mass", "/species/0/mass", 0.01, 1000.0, "Mass m 3 m", true},
+    {"pair.fine.coarse.restitution", "/pair/0/restitution", 0.0, 1.0, "α with coarse 0.710"}};
+
+Scene sieve() {
+  return parse_scene(R"(box.size = [200, 200]
+      [particles]
+      restitution = 0.9
+      [[species]]
+      name = "fine"
+      count = 40
+      diameter = 0.6
+      mass = 3.0
+      [[species]]
+      name = "coarse"
+      count = 10
+      diameter = 1.5
+      [[pair]]
+      species = ["coarse", "fine"]
+      restitution = 0.71)",
+                     "sieve.toml");
+}
+
 // The number in a line, as a word.
 std::string number_in(const std::string& line) {
   std::istringstream words(line);
@@ -127,6 +154,18 @@ TEST_CASE("Panels: each slider of spheres changes its key, and disks lack these 
     CAPTURE(word);
     CHECK_FALSE(says(text, word));
   }
+}
+
+TEST_CASE("Panels: each slider of a species sets the key of this species or of its pair") {
+  check_sliders(sieve(), kSpeciesSliders);
+  PanelDriver driver(sieve(), gas_panel);
+  CHECK_FALSE(says(text_of(driver), "Disks N 10"));
+  choose(driver, "species", "coarse");
+  driver.point_at(0.0f, 0.0f);
+  const std::string text = text_of(driver);
+  CHECK(says(text, "Disks N 10"));
+  CHECK(says(text, "α with fine 0.710"));
+  CHECK(says(text, "α with coarse 0.900"));
 }
 
 TEST_CASE("Panels: a click or a double click on a slider changes nothing") {
