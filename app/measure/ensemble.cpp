@@ -147,7 +147,7 @@ static EnsembleResult measure_replicas(const Scene& scene, const Ensemble& ensem
     std::vector<double> values;
     for (const Replica* replica : done) values.push_back(replica->estimates[k].second.mean);
     const Estimate over_replicas = independent_estimate(values);
-    json[estimate_pointer(done.front()->estimates[k].first)] = {
+    place_of_estimate(json, done.front()->estimates[k].first) = {
         {"mean", over_replicas.mean}, {"standard_error", over_replicas.standard_error}};
   }
   return {std::move(json), replicas.failure()};

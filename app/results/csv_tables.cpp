@@ -29,9 +29,9 @@ static std::string profile_table(const Profile& profile) {
   const std::string axis(name_of(profile.axis, kAxes));
   std::string units = std::string("# units, ") + kUnits + "; " + axis + ": a";
   std::string header = axis + "_low," + axis + "_high";
-  for (const Field field : profile.fields) {
-    const std::string name = name_of(field);
-    units += ", " + name + ": " + unit_of(field.quantity, profile.dimension);
+  for (std::size_t f = 0; f < profile.fields.size(); ++f) {
+    const std::string name = profile.name(f);
+    units += ", " + name + ": " + unit_of(profile.fields[f].quantity, profile.dimension);
     header += "," + name + "," + name + "_error";
   }
   std::string table = units + "\n" + header + "\n";
@@ -58,7 +58,7 @@ static std::string maps_table(const FieldMaps& maps, const StopRequest& stop) {
     header += (axis == 0 ? "" : ",") + name;
   }
   for (const FieldMap& map : maps.maps) {
-    const std::string name = name_of(map.field);
+    const std::string name = name_of(map);
     units += ", " + name + ": " + unit_of(map.field.quantity, static_cast<int>(cells.size()));
     header += "," + name;
   }

@@ -95,7 +95,7 @@ void write_profile(const H5::Group& group, const Profile& profile) {
       means.push_back(estimate.mean);
       widths.push_back(estimate.standard_error);
     }
-    const std::string name = name_of(profile.fields[f]);
+    const std::string name = profile.name(f);
     const std::string unit = unit_of(profile.fields[f].quantity, profile.dimension);
     write_dataset(group, name, unit, means);
     write_dataset(errors, name, unit, widths);
@@ -127,7 +127,7 @@ void write_maps(const H5::Group& group, const FieldMaps& maps, const StopRequest
   write_dataset(group, "time", "t", {maps.begin, maps.end});
   for (const FieldMap& map : maps.maps) {
     stop.check();
-    write_dataset(group, name_of(map.field), map_unit(map), map.values, shape_of(map));
+    write_dataset(group, name_of(map), map_unit(map), map.values, shape_of(map));
   }
 }
 
@@ -146,7 +146,7 @@ void write_map_series(const H5::Group& group, const std::vector<FieldMaps>& part
     }
     Hdf5Shape shape = shape_of(map);
     shape.insert(shape.begin(), parts.size());
-    write_dataset(group, name_of(map.field), map_unit(map), values, shape);
+    write_dataset(group, name_of(map), map_unit(map), values, shape);
   }
 }
 

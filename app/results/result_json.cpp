@@ -42,6 +42,22 @@ std::vector<std::pair<std::string, Estimate>> estimates_of(const Measured& measu
     add("pressure." + std::string(kSideNames[side]), measured.pressure[side]);
   }
   add("pressure.virial", measured.compressibility);
+  for (const SpeciesMeans& species : measured.species) {
+    const std::string place = "species." + species.name + '.';
+    add(place + "temperature", species.temperature);
+    add_axes(place + "temperature", species.axis_temperatures);
+    add(place + "spin_temperature", species.spin_temperature);
+    for (std::size_t axis = 0; axis < species.mean_position.size(); ++axis) {
+      add(place + "mean_position." + std::to_string(axis), species.mean_position[axis]);
+    }
+    add(place + "bulk_in", species.bulk_in);
+    add(place + "walls_in", species.walls_in);
+  }
+  for (const PairMeans& pair : measured.pairs) {
+    const std::string place = "pairs." + pair.species[0] + '+' + pair.species[1] + '.';
+    add(place + "collision_rate", pair.collision_rate);
+    add(place + "dissipated", pair.dissipated);
+  }
   for (const ObservableResult& observable : measured.observables) {
     for (const auto& [name, mean] : observable.means) add(name, mean);
   }
@@ -53,12 +69,47 @@ Json::json_pointer estimate_pointer(std::string name) {
   return Json::json_pointer("/" + name);
 }
 
+// The item of a list that is about these species. New items are added at the end.
+static Json& item_about(Json& list, const char* key, const Json& species) {
+  for (Json& item : list) {
+    if (item.at(key) == species) return item;
+  }
+  list.push_back({{key, species}});
+  return list.back();
+}
+
+Json& place_of_estimate(Json& result, const std::string& name) {
+  const std::size_t first = name.find('.'), second = name.find('.', first + 1);
+  const std::string group = name.substr(0, first);
+  if (group != "species" && group != "pairs") return result[estimate_pointer(name)];
+  const std::string about = name.substr(first + 1, second - first - 1);
+  const std::size_t plus = about.find('+');
+  Json& item = group == "species" ? item_about(result[group], "name", about)
+                                  : item_about(result[group], "species",
+                                               {about.substr(0, plus), about.substr(plus + 1)});
+  return item[estimate_pointer(name.substr(second + 1))];
+}
+
+// The results of each species: first its name and number, then its means. A mean position has a
+// place for each axis, null along periodic ones.
+static Json species_json(const std::vector<SpeciesMeans>& all) {
+  Json json = Json::array();
+  for (const SpeciesMeans& species : all) {
+    Json& item = json.emplace_back(Json{{"name", species.name}, {"count", species.count}});
+    if (species.elasticised_share) item["elasticised_share"] = *species.elasticised_share;
+    for (const auto& position : species.mean_position) {
+      item["mean_position"].push_back(position ? estimate_json(*position) : Json(nullptr));
+    }
+  }
+  return json;
+}
+
 static Json profile_json(const Profile& profile) {
   Json json{{"axis", name_of(profile.axis, kAxes)}, {"edges", profile.edges}};
   Json errors = Json::object();
-  for (const Field field : profile.fields) {
-    const std::string name = name_of(field);
-    for (const Estimate& e : profile.at(field)) {
+  for (std::size_t f = 0; f < profile.fields.size(); ++f) {
+    const std::string name = profile.name(f);
+    for (const Estimate& e : profile.values[f]) {
       // A column without particles has no temperature: null.
       json[name].push_back(std::isfinite(e.mean) ? Json(e.mean) : Json(nullptr));
       errors[name].push_back(e.standard_error);
@@ -80,12 +131,14 @@ static void add_table(Json& json, const ResultTable& table) {
 }
 
 // The largest residual of each equation (theory 9.1-9.3). For momentum, the largest of all
-// components.
+// components. Of a mixture also that of the numbers of each species.
 static Json balance_json(const Residuals& residuals) {
   const std::vector<double> largest = residuals.largest();
-  return {{"mass", largest.front()},
-          {"momentum", *std::max_element(largest.begin() + 1, largest.end() - 1)},
-          {"energy", largest.back()}};
+  Json json{{"mass", largest.front()},
+            {"momentum", *std::max_element(largest.begin() + 1, largest.end() - 1)},
+            {"energy", largest.back()}};
+  if (!residuals.numbers.empty()) json["number"] = std::ranges::max(residuals.numbers);
+  return json;
 }
 
 template <int D>
@@ -106,8 +159,9 @@ Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<D>& si
   // A run interrupted during the burn-in has no averages. A run without disks has none either.
   const bool averaged = measured.duration > 0.0;
   if (averaged) {
+    if (!measured.species.empty()) json["species"] = species_json(measured.species);
     for (const auto& [name, estimate] : estimates_of(measured)) {
-      json[estimate_pointer(name)] = estimate_json(estimate);
+      place_of_estimate(json, name) = estimate_json(estimate);
     }
     json["energy"]["ledger_residual"] = measured.ledger_residual;
   }

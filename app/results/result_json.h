@@ -22,10 +22,15 @@ struct Performance {
 };
 
 /// The means of a result, by dotted names as in the result file, for example "energy.dissipated".
+/// Those of a species have its name, "species.large.temperature", those of a pair both,
+/// "pairs.small+large.dissipated".
 std::vector<std::pair<std::string, Estimate>> estimates_of(const Measured& measured);
 
-/// The place of a mean or a table in a result, by its dotted name.
+/// The place of a table in a result, or of a mean outside of lists, by its dotted name.
 nlohmann::ordered_json::json_pointer estimate_pointer(std::string name);
+
+/// The place of a mean in a result, by its name in estimates_of(); it is made if absent.
+nlohmann::ordered_json& place_of_estimate(nlohmann::ordered_json& result, const std::string& name);
 
 /// The result file of `clatter measure`. Parts that do not apply to the scene are absent.
 template <int D>

@@ -44,10 +44,14 @@ struct DataArray {
   std::vector<const FieldMap*> components;
 };
 
+std::string name_of_array(const FieldMap& map) {
+  return joint_name_of(map.field) + (map.species.empty() ? "" : '_' + map.species);
+}
+
 std::vector<DataArray> arrays_of(const FieldMaps& maps) {
   std::vector<DataArray> arrays;
   for (const FieldMap& map : maps.maps) {
-    const std::string name = joint_name_of(map.field);
+    const std::string name = name_of_array(map);
     auto array = std::ranges::find(arrays, name, &DataArray::name);
     if (array == arrays.end()) array = arrays.insert(array, {name, {}});
     array->components.push_back(&map);

@@ -56,12 +56,22 @@ void add_mean(Json& row, const std::string& name, const std::vector<double>& mea
   if (means.size() > 1) row[name + "_blocking_error"] = blocked;
 }
 
+// The name of an item of a list: of a species its name, of a pair "small+large"; empty without one.
+std::string name_of_item(const Json& item) {
+  if (!item.is_object()) return {};
+  if (item.contains("name")) return item.at("name");
+  const auto pair = item.find("species");
+  if (pair == item.end() || pair->size() != 2) return {};
+  return pair->at(0).get<std::string>() + '+' + pair->at(1).get<std::string>();
+}
+
 // All objects with a mean and a standard error, below `place`.
 void add_means(Json& row, const Replicas& replicas, const std::string& name,
                const Json::json_pointer& place) {
   for (const auto& [key, value] : replicas.front().at(place).items()) {
-    if (!value.is_object() || key == "scene" || key == "profile" || key == "theory") continue;
-    const std::string path = name.empty() ? key : name + '.' + key;
+    if (!value.is_structured() || key == "scene" || key == "profile" || key == "theory") continue;
+    const std::string item = name_of_item(value), last = item.empty() ? key : item;
+    const std::string path = name.empty() ? last : name + '.' + last;
     const std::vector<double> means = numbers_at(replicas, place / key / "mean");
     const std::vector<double> errors = numbers_at(replicas, place / key / "standard_error");
     if (!means.empty() && !errors.empty()) {

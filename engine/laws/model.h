@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/laws/domain.h"
@@ -59,6 +60,7 @@ struct SpeciesLaws {
   std::vector<PairLaw> pairs;
   /// [S] walls that one species meets, by Side. They have the kinds and motions of Model::walls.
   std::vector<std::array<std::optional<Wall>, 2 * D>> walls;
+  std::vector<std::string> names = {};  ///< [S] for results; empty: they have numbers
 
   /// Number of species.
   std::size_t count() const { return walls.size(); }

@@ -30,7 +30,8 @@ template <int D>
 Balance<D>::Balance(const Simulation<D>& simulation, const IntVec<D>& cells)
     : simulation_(simulation),
       grid_(simulation.model(), cells),
-      window_start_(simulation.base_time()) {
+      window_start_(simulation.base_time()),
+      species_(simulation.model().species ? simulation.model().species->count() : 0) {
   const Vec<D>& gravity = simulation.model().gravity;
   for (std::uint32_t i = 0; i < simulation.particles().size(); ++i) {
     const Flight<D>& flight = simulation.particles()[i].flight;
@@ -47,6 +48,8 @@ void Balance<D>::clear() {
   for (auto& faces : booked_.faces) faces.assign(count, {});
   booked_.sources.assign(count, {});
   booked_.weights.assign(count, Conserved<D>::Zero());
+  for (auto& faces : numbers_.faces) faces.assign(count * species_, 0.0);
+  numbers_.passages.assign(count * species_, 0.0);
 }
 
 template <int D>
@@ -92,6 +95,7 @@ void Balance<D>::follow(std::uint32_t particle, const Flight<D>& flight, double 
       [&](const Cell& cell, double time, int axis, int step) {
         pass(cell, axis, step,
              carried(particle, flight.velocity_at(time, gravity), spin(particle)));
+        if (species_ > 0) count_passage(particle, cell, axis, step);
       });
 }
 
@@ -134,6 +138,43 @@ void Balance<D>::pass(const Cell& cell, int axis, int step, const Conserved<D>& 
   const std::size_t index = grid_.index_of(cell), beyond = grid_.index_of(next);
   if (index == beyond) return;
   add<D>(booked_.faces[axis][step > 0 ? index : beyond], step * amount);
+}
+
+template <int D>
+std::size_t Balance<D>::number_index(std::size_t cell, std::uint32_t particle) const {
+  return cell * species_ + simulation_.grain(particle).species;
+}
+
+// The number of particles of the species that pass a face, see pass().
+template <int D>
+void Balance<D>::count_passage(std::uint32_t particle, const Cell& cell, int axis, int step) {
+  Cell next = cell;
+  next[axis] += step;
+  const std::size_t index = grid_.index_of(cell), beyond = grid_.index_of(next);
+  if (index == beyond) return;
+  numbers_.faces[axis][number_index(step > 0 ? index : beyond, particle)] += step;
+  numbers_.passages[number_index(index, particle)] += 1.0;
+  numbers_.passages[number_index(beyond, particle)] += 1.0;
+}
+
+template <int D>
+std::vector<double> Balance<D>::number_residuals(const std::vector<double>& changes) const {
+  std::vector<double> residuals = changes;
+  for (std::size_t cell = 0; cell < grid_.size(); ++cell) {
+    for (int axis = 0; axis < D; ++axis) {
+      Cell below = grid_.cell_of(cell);
+      --below[axis];
+      const std::size_t lower = grid_.index_of(below);
+      for (std::size_t s = 0; s < species_; ++s) {
+        const double in = lower == cell ? 0.0 : numbers_.faces[axis][lower * species_ + s];
+        residuals[cell * species_ + s] -= in - numbers_.faces[axis][cell * species_ + s];
+      }
+    }
+  }
+  for (std::size_t k = 0; k < residuals.size(); ++k) {
+    residuals[k] /= std::max(1.0, numbers_.passages[k]);
+  }
+  return residuals;
 }
 
 template <int D>
@@ -207,7 +248,7 @@ void Balance<D>::on_base_moved(double shift) {
 // Change of the cells' contents, from the particles' states at the window's ends. Starts the next
 // window.
 template <int D>
-Imbalances<D> Balance<D>::take_changes(double now) {
+Imbalances<D> Balance<D>::take_changes(double now, std::vector<double>& numbers) {
   const Vec<D>& gravity = simulation_.model().gravity;
   Imbalances<D> taken;
   taken.gaps.assign(booked_.sources.size(), Conserved<D>::Zero());
@@ -222,6 +263,10 @@ Imbalances<D> Balance<D>::take_changes(double now) {
     particle.cell = grid_.image_at(particle.cell, r);
     if (!grid_.contains(particle.cell, r)) particle.cell = grid_.cell_at(r);
     const std::size_t to = grid_.index_of(particle.cell), from = particle.first_cell;
+    if (species_ > 0 && to != from) {
+      numbers[number_index(to, i)] += 1.0;
+      numbers[number_index(from, i)] -= 1.0;
+    }
     if (to == from) {
       taken.gaps[to] += gained(i, v, spin(i));
     } else {
@@ -257,7 +302,9 @@ BalanceWindow<D> Balance<D>::close_window() {
   for (std::uint32_t i = 0; i < particles_.size(); ++i)
     follow(i, simulation_.particles()[i].flight, now);
   BalanceWindow<D> window;
-  window.imbalances = take_changes(now);
+  std::vector<double> numbers(numbers_.passages.size());
+  window.imbalances = take_changes(now, numbers);
+  window.number_residuals = number_residuals(numbers);
   window_start_ = now;
   for (std::size_t index = 0; index < window.imbalances.gaps.size(); ++index) {
     const Booked<D> booked = booked_at(index);

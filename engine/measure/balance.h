@@ -80,11 +80,28 @@ void visit(Archive& io, Imbalances<D>& imbalances) {
   io(gaps, sizes);
 }
 
+/// Numbers of particles of each species of a mixture: [cells][S], each list empty without species.
+template <int D>
+struct SpeciesNumbers {
+  std::array<std::vector<double>, D> faces;  ///< net passages along each axis of the upper faces
+  std::vector<double> passages;              ///< into and out of the cell, added up
+};
+
+/// Visits all members, in order, for checkpoints.
+template <class Archive, int D>
+void visit(Archive& io, SpeciesNumbers<D>& numbers) {
+  auto& [faces, passages] = numbers;
+  io(faces, passages);
+}
+
 /// The balance equations in one window of time.
 template <int D>
 struct BalanceWindow {
   Imbalances<D> imbalances;
   Bookings<D> booked;  ///< compared with the cells' changes
+  /// [cells][S] residuals of the numbers of each species (theory 12.9), relative to the passages;
+  /// empty without species.
+  std::vector<double> number_residuals = {};
 };
 
 /// Closes the balance equations (theory 9.4) on a grid of equal cells over the whole box. It
@@ -110,8 +127,8 @@ class Balance : public Observer<D> {
   /// Visits the members that a checkpoint keeps. The continued simulation must be at the same time.
   template <class Archive>
   void visit(Archive& io) {
-    auto& [simulation, grid, particles, window_start, booked] = *this;
-    io(particles, window_start, booked);
+    auto& [simulation, grid, particles, window_start, booked, species, numbers] = *this;
+    io(particles, window_start, booked, numbers);
     for (const Tracked& particle : particles) {
       io.require(particle.first_cell < grid.size() && grid.is_near(particle.cell));
     }
@@ -146,8 +163,11 @@ class Balance : public Observer<D> {
                  const Conserved<D>& amount);
   void pass(const Cell& cell, int axis, int step, const Conserved<D>& amount);
   void arise(const Cell& cell, const Conserved<D>& amount);
+  void count_passage(std::uint32_t particle, const Cell& cell, int axis, int step);
+  std::size_t number_index(std::size_t cell, std::uint32_t particle) const;
+  std::vector<double> number_residuals(const std::vector<double>& changes) const;
   void clear();
-  Imbalances<D> take_changes(double now);
+  Imbalances<D> take_changes(double now, std::vector<double>& numbers);
   Booked<D> booked_at(std::size_t index) const;
 
   const Simulation<D>& simulation_;
@@ -155,6 +175,8 @@ class Balance : public Observer<D> {
   std::vector<Tracked> particles_;  // [N]
   double window_start_;
   Bookings<D> booked_;
+  std::size_t species_;  // number of species of a mixture; 0: the particles are alike
+  SpeciesNumbers<D> numbers_;
 };
 
 extern template struct Imbalances<2>;

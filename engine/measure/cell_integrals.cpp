@@ -52,6 +52,16 @@ void CellIntegrals<D>::add(std::size_t cell, int begin, int end, const double* n
 }
 
 template <int D>
+void CellIntegrals<D>::add_kinetic(std::size_t cell, const Grain& grain, const Rates& rates,
+                                   double weight) {
+  add(cell, 0, layout_.common, rates.data(), weight);
+  const auto species = static_cast<int>(grain.species);
+  if (species >= layout_.species_count) return;
+  const int begin = layout_.of_species(species);
+  add(cell, begin, begin + layout_.species_size, rates.data(), weight);
+}
+
+template <int D>
 template <class Visit>
 void CellIntegrals<D>::spread(const Vec<D>& place, Visit&& visit) const {
   if (gaussian_) return gaussian_->at(place, visit);
@@ -127,7 +137,7 @@ void CellIntegrals<D>::add_flight(const Grain& grain, const Flight<D>& flight, c
   if (simulation_.model().has_gravity()) return add_fall(grain, flight, spin, begin, end);
   const Rates rates = rates_of(grain, flight.v, Vec<D>::Zero(), spin);
   grid_.cut(flight.at(begin, gravity), flight.v * spent, [&](std::size_t cell, double share) {
-    add(cell, 0, layout_.kinetic, rates.data(), share * spent);
+    add_kinetic(cell, grain, rates, share * spent);
   });
 }
 
@@ -142,7 +152,7 @@ void CellIntegrals<D>::add_fall(const Grain& grain, const Flight<D>& flight, con
         const double spent = until - from;
         const Vec<D> v = flight.velocity_at(from + 0.5 * spent, gravity);
         const Rates rates = rates_of(grain, v, spent * gravity, spin);
-        add(grid_.index_of(cell), 0, layout_.kinetic, rates.data(), spent);
+        add_kinetic(grid_.index_of(cell), grain, rates, spent);
       },
       [](const auto&, double, int, int) {});
 }
@@ -227,10 +237,10 @@ void CellIntegrals<D>::sample() {
   const State<D> state = simulation_.state();
   for (std::uint32_t i = 0; i < state.positions.size(); ++i) {
     const Spin<D> spin = state.spins.empty() ? Spin<D>(Spin<D>::Zero()) : state.spins[i];
-    const Rates rates = rates_of(simulation_.grain(i), state.velocities[i], Vec<D>::Zero(), spin);
-    spread(state.positions[i], [&](std::size_t cell, double weight) {
-      add(cell, 0, layout_.kinetic, rates.data(), weight);
-    });
+    const Grain& grain = simulation_.grain(i);
+    const Rates rates = rates_of(grain, state.velocities[i], Vec<D>::Zero(), spin);
+    spread(state.positions[i],
+           [&](std::size_t cell, double weight) { add_kinetic(cell, grain, rates, weight); });
   }
   sums_.kinetic_weight += 1.0;
 }

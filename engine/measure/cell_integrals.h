@@ -105,6 +105,7 @@ class CellIntegrals : public Observer<D> {
                     double energy);
   void add_dissipation(const Vec<D>& place, double energy);
   void add(std::size_t cell, int begin, int end, const double* numbers, double weight);
+  void add_kinetic(std::size_t cell, const Grain& grain, const Rates& rates, double weight);
   template <class Visit>
   void spread(const Vec<D>& place, Visit&& visit) const;
   template <class Visit>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "engine/scene/field.h"
@@ -13,6 +14,12 @@ struct FieldMap {
   std::vector<double> values;  ///< [cells_y][cells_x], in 3D [cells_z][cells_y][cells_x]; NaN:
                                ///< never visited
   bool whole_window = false;   ///< whether the average covers the whole window
+  std::string species = {};    ///< name of the species of the field; empty: all particles
 };
+
+/// The name of a map in files.
+inline std::string name_of(const FieldMap& map) {
+  return name_of(map.field, map.species);
+}
 
 }  // namespace clatter

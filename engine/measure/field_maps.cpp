@@ -11,9 +11,10 @@ FieldMap field_map(Field field, const CellSums& sums, const FieldGrid<D>& grid,
                    const MomentLayout<D>& layout) {
   FieldMap map{field, {grid.cells().begin(), grid.cells().end()}, std::vector<double>(grid.size())};
   for (std::size_t i = 0; i < map.values.size(); ++i) {
-    map.values[i] = sums.time > 0.0
-                        ? field_value(field, averages_of(layout, sums, i, grid.cell_measure()))
-                        : std::numeric_limits<double>::quiet_NaN();
+    map.values[i] =
+        sums.time > 0.0
+            ? field_value(field, averages_of(layout, sums, i, grid.cell_measure(), field.species))
+            : std::numeric_limits<double>::quiet_NaN();
   }
   return map;
 }

@@ -11,11 +11,13 @@ namespace {
 template <int D, class S>
 using Cell = CellAverages<D, S>;
 
+// Fewer particles per a^2 are a time of rounding errors.
+constexpr double kRounding = 1e-12;
+
 // Whether particles were in the cell. The centres of particles at a wall may reach a cell's border
 // exactly; the cell then gets a time of rounding errors, and V would be a ratio of these.
 template <int D, class S>
 bool visited(const Cell<D, S>& cell) {
-  constexpr double kRounding = 1e-12;  // particles per a^2
   return value_of(cell.density) > kRounding;
 }
 
@@ -160,9 +162,26 @@ Needs needs_of(Field field) {
 }
 
 template <int D, class S>
-CellAverages<D, S> averages_of(const MomentLayout<D>& layout, const S* row) {
+static void read_species(typename CellAverages<D, S>::Species& averages,
+                         const MomentLayout<D>& layout, const S* row, int species) {
+  const S* const sums = row + layout.of_species(species);
+  const auto read = [&](int place, int number) {
+    const int index = place + number;
+    return place < 0 || index >= layout.species_size ? S(0.0) : sums[index];
+  };
+  averages.density = read(layout.count, 0);
+  averages.mass_density = read(layout.mass, 0);
+  for (int k = 0; k < D; ++k) {
+    averages.momentum[k] = read(layout.momentum, k);
+    averages.squares[k] = read(layout.squares, k);
+  }
+}
+
+template <int D, class S>
+CellAverages<D, S> averages_of(const MomentLayout<D>& layout, const S* row, int species) {
   CellAverages<D, S> cell;
   const auto read = [&](int place, int number) { return place < 0 ? S(0.0) : row[place + number]; };
+  if (species != Field::kNone) read_species<D, S>(cell.species, layout, row, species);
   cell.density = row[layout.count];
   cell.mass_density = row[layout.mass];
   for (int k = 0; k < kSpinSize<D>; ++k) cell.spin[k] = read(layout.spin, k);
@@ -184,29 +203,50 @@ CellAverages<D, S> averages_of(const MomentLayout<D>& layout, const S* row) {
 
 template <int D>
 CellAverages<D, double> averages_of(const MomentLayout<D>& layout, const CellSums& sums,
-                                    std::size_t cell, double measure) {
+                                    std::size_t cell, double measure, int species) {
   const auto size = static_cast<std::size_t>(layout.size);
   std::vector<double> row(size);
   for (std::size_t k = 0; k < size; ++k) {
     const double weight = static_cast<int>(k) < layout.kinetic ? sums.kinetic_weight : sums.time;
     row[k] = sums.rows[cell * size + k] / (weight * measure);
   }
-  return averages_of<D, double>(layout, row.data());
+  return averages_of<D, double>(layout, row.data(), species);
+}
+
+// Its temperature is relative to the common velocity, so that the sum of n_s T_s is rho T (theory
+// 12.8).
+template <int D, class S>
+static S species_value(Field field, const CellAverages<D, S>& cell) {
+  const auto& species = cell.species;
+  const bool present = value_of(species.density) > kRounding;
+  if (field.quantity == Quantity::Density) return present ? species.density : S(0.0);
+  if (!present) return no_value<S>();
+  if (field.quantity == Quantity::Velocity) return species.momentum[field.i] / species.mass_density;
+  const auto along = [&](int k) {
+    const S v = velocity(cell, k);
+    return (species.squares[k] - 2.0 * (v * species.momentum[k]) + v * v * species.mass_density) /
+           species.density;
+  };
+  if (field.i != Field::kNone) return along(field.i);
+  S sum = along(0);
+  for (int k = 1; k < D; ++k) sum = sum + along(k);
+  return (1.0 / D) * sum;
 }
 
 template <int D, class S>
 S field_value(Field field, const CellAverages<D, S>& cell) {
+  if (field.species != Field::kNone) return species_value(field, cell);
   return kDerivations<D, S>[static_cast<std::size_t>(field.quantity)].value(field, cell);
 }
 
-template CellAverages<2, double> averages_of(const MomentLayout<2>&, const double*);
-template CellAverages<3, double> averages_of(const MomentLayout<3>&, const double*);
-template CellAverages<2, Dual> averages_of(const MomentLayout<2>&, const Dual*);
-template CellAverages<3, Dual> averages_of(const MomentLayout<3>&, const Dual*);
+template CellAverages<2, double> averages_of(const MomentLayout<2>&, const double*, int);
+template CellAverages<3, double> averages_of(const MomentLayout<3>&, const double*, int);
+template CellAverages<2, Dual> averages_of(const MomentLayout<2>&, const Dual*, int);
+template CellAverages<3, Dual> averages_of(const MomentLayout<3>&, const Dual*, int);
 template CellAverages<2, double> averages_of(const MomentLayout<2>&, const CellSums&, std::size_t,
-                                             double);
+                                             double, int);
 template CellAverages<3, double> averages_of(const MomentLayout<3>&, const CellSums&, std::size_t,
-                                             double);
+                                             double, int);
 template double field_value(Field, const CellAverages<2, double>&);
 template double field_value(Field, const CellAverages<3, double>&);
 template Dual field_value(Field, const CellAverages<2, Dual>&);

@@ -27,6 +27,14 @@ struct CellAverages {
   Vector energy_transfer{};  ///< energy transfer of collisions, sum of branch vector times energy
   S dissipation{};           ///< <= 0, energy gain in collisions between particles, per time
 
+  /// The same of the particles of one species.
+  struct Species {
+    S density{};
+    S mass_density{};
+    Vector momentum{};
+    Vector squares{};  ///< sum m v_k^2
+  } species;
+
   /// E = sum (m v^2 + I omega^2)/2.
   S energy() const {
     S twice = 2.0 * spin_energy;
@@ -35,14 +43,16 @@ struct CellAverages {
   }
 };
 
-/// The averages from a cell's row of sums, divided by time and area.
+/// The averages from a cell's row of sums, divided by time and area. `species`: that of the
+/// averages of a species, or Field::kNone.
 template <int D, class S>
-CellAverages<D, S> averages_of(const MomentLayout<D>& layout, const S* row);
+CellAverages<D, S> averages_of(const MomentLayout<D>& layout, const S* row,
+                               int species = Field::kNone);
 
 /// The averages of a cell from the sums of a window. `measure` is the cell's area or volume.
 template <int D>
 CellAverages<D, double> averages_of(const MomentLayout<D>& layout, const CellSums& sums,
-                                    std::size_t cell, double measure);
+                                    std::size_t cell, double measure, int species = Field::kNone);
 
 /// The sums that a field needs.
 Needs needs_of(Field field);
@@ -50,17 +60,18 @@ Needs needs_of(Field field);
 /// Value of a field (theory 8). In a cell without particles, velocity, temperatures, spins and the
 /// kinetic parts of stress and heat flux are NaN. The total stress and heat flux are NaN if the
 /// collisional part is 0 too. Residuals are always NaN, because they do not follow from averages.
+/// The averages must be of the species of the field, if it has one.
 template <int D, class S>
 S field_value(Field field, const CellAverages<D, S>& cell);
 
-extern template CellAverages<2, double> averages_of(const MomentLayout<2>&, const double*);
-extern template CellAverages<3, double> averages_of(const MomentLayout<3>&, const double*);
-extern template CellAverages<2, Dual> averages_of(const MomentLayout<2>&, const Dual*);
-extern template CellAverages<3, Dual> averages_of(const MomentLayout<3>&, const Dual*);
+extern template CellAverages<2, double> averages_of(const MomentLayout<2>&, const double*, int);
+extern template CellAverages<3, double> averages_of(const MomentLayout<3>&, const double*, int);
+extern template CellAverages<2, Dual> averages_of(const MomentLayout<2>&, const Dual*, int);
+extern template CellAverages<3, Dual> averages_of(const MomentLayout<3>&, const Dual*, int);
 extern template CellAverages<2, double> averages_of(const MomentLayout<2>&, const CellSums&,
-                                                    std::size_t, double);
+                                                    std::size_t, double, int);
 extern template CellAverages<3, double> averages_of(const MomentLayout<3>&, const CellSums&,
-                                                    std::size_t, double);
+                                                    std::size_t, double, int);
 extern template double field_value(Field, const CellAverages<2, double>&);
 extern template double field_value(Field, const CellAverages<3, double>&);
 extern template Dual field_value(Field, const CellAverages<2, Dual>&);

@@ -37,14 +37,32 @@ static IntVec<D> cells_of(const Measure& measure) {
   return Eigen::Map<const IntVec<D>>(measure.cells.data());
 }
 
+// The fields, and then those of each species.
+static std::vector<Field> with_species(std::vector<Field> fields, std::size_t species) {
+  const std::vector<Field> all = fields;
+  for (std::size_t s = 0; s < species; ++s) {
+    for (const Field field : all) {
+      if (has_species(field.quantity)) fields.push_back(field.of(s));
+    }
+  }
+  return fields;
+}
+
 template <int D>
-double cells_memory(const Measure& measure, bool spins) {
+static std::size_t species_in(const Simulation<D>& simulation) {
+  const auto& species = simulation.model().species;
+  return species ? species->count() : 0;
+}
+
+template <int D>
+double cells_memory(const Measure& measure, bool spins, std::size_t species) {
   std::vector<Field> averages = measure.fields;
   const bool balanced = std::erase_if(averages, is_residual) > 0;
+  averages = with_species(averages, species);
   const double cells = cells_of<D>(measure).template cast<double>().prod();
   double bytes = 0.0;
   if (!averages.empty()) {
-    const double row = moment_layout<D>(averages, spins, false).size * sizeof(double);
+    const double row = moment_layout<D>(averages, spins, species > 0).size * sizeof(double);
     const auto parts =
         static_cast<double>(PartSums<CellSums>::max_parts(static_cast<std::size_t>(cells * row)));
     const double maps = (parts + 1.0) * static_cast<double>(averages.size() * sizeof(double));
@@ -68,6 +86,7 @@ Measurement<D>::Measurement(Simulation<D>& simulation, const Measure& measure, d
       measure_(measure),
       end_(end),
       balanced_(std::erase_if(measure_.fields, is_residual) > 0),
+      fields_(with_species(measure_.fields, species_in(simulation))),
       totals_(simulation),
       series_start_(series_start(measure.series_interval, simulation.time())),
       particles_(simulation.particles().size()),
@@ -84,6 +103,7 @@ Measurement<D>::Measurement(Simulation<D>& simulation, const Measure& measure, d
       measure_(measure),
       end_(end),
       balanced_(std::erase_if(measure_.fields, is_residual) > 0),
+      fields_(with_species(measure_.fields, species_in(simulation))),
       totals_(simulation),
       particles_(simulation.particles().size()),
       own_(simulation, *this),
@@ -110,12 +130,15 @@ void Measurement<D>::plan_averages() {
   window_ = span / windows_in(span, measure_.series_interval);
   started_ = false;
   windows_.clear();
+  species_windows_.clear();
   columns_.clear();
   parts_ = {};
   residuals_ = {};
   samples_ = 0;
+  of_species_.reset();
   of_cells_.reset();
   of_balance_.reset();
+  species_.reset();
   cells_.reset();
   balance_.reset();
   observables_.emplace(simulation_, measure_);
@@ -194,11 +217,14 @@ void Measurement<D>::fit_series() {
 template <int D>
 template <class Archive>
 void Measurement<D>::visit_averages(Archive& io) {
-  auto& [simulation, measure, end, balanced, totals, cells, balance, series_start, averages_start,
-         window, started, counts_at_start, windows, columns, parts, residuals, samples, series,
-         observables, go_on, particles, own, of_totals, of_cells, of_balance, timers] = *this;
+  auto& [simulation, measure, end, balanced, fields, totals, species, cells, balance, series_start,
+         averages_start, window, started, counts_at_start, windows, species_windows, columns, parts,
+         residuals, samples, series, observables, go_on, particles, own, of_totals, of_species,
+         of_cells, of_balance, timers] = *this;
   io(averages_start, window, started, counts_at_start, windows, columns, parts, residuals, samples);
-  if (started && !cells && !balance) open_cells();
+  if (simulation.model().species) io(species_windows);
+  if (started && !species && !cells && !balance) open_sums();
+  if (species) io(*species);
   if (cells) io(*cells);
   if (balance) io(*balance);
 }
@@ -245,27 +271,30 @@ void Measurement<D>::start() {
   started_ = true;
   totals_.close_window();
   counts_at_start_ = simulation_.counts();
-  open_cells();
+  open_sums();
   observables_->start();
 }
 
 template <int D>
-void Measurement<D>::open_cells() {
+void Measurement<D>::open_sums() {
+  if (simulation_.model().species) {
+    of_species_.emplace(simulation_, species_.emplace(simulation_));
+  }
   const IntVec<D> cells = cells_of<D>(measure_);
   if (balanced_) of_balance_.emplace(simulation_, balance_.emplace(simulation_, cells));
   if (measure_.fields.empty()) return;
   Coarsening coarsening{measure_.estimator, {}};
   if (measure_.kernel == Kernel::Gaussian) coarsening.gaussian_width = measure_.width;
-  of_cells_.emplace(simulation_,
-                    cells_.emplace(simulation_, cells,
-                                   moment_layout<D>(measure_.fields, simulation_.model().spins,
-                                                    simulation_.is_mixture()),
-                                   coarsening));
+  of_cells_.emplace(simulation_, cells_.emplace(simulation_, cells,
+                                                moment_layout<D>(fields_, simulation_.model().spins,
+                                                                 simulation_.is_mixture()),
+                                                coarsening));
 }
 
 template <int D>
 void Measurement<D>::close_window() {
   windows_.push_back(totals_.close_window());
+  if (species_) species_windows_.push_back(species_->close_window());
   observables_->close_window();
   if (cells_) {
     CellSums window = cells_->close_window();
@@ -277,7 +306,16 @@ void Measurement<D>::close_window() {
 
 template <int D>
 void Measurement<D>::close_balance() {
-  residuals_.include(balance_->close_window().imbalances);
+  const BalanceWindow<D> window = balance_->close_window();
+  residuals_.include(window.imbalances);
+  residuals_.include_numbers(window.number_residuals, species_in(simulation_));
+}
+
+// Name of the species of a field; empty: it is of all particles.
+template <int D>
+std::string Measurement<D>::species_of(Field field) const {
+  if (field.species == Field::kNone) return {};
+  return species_name(*simulation_.model().species, static_cast<std::size_t>(field.species));
 }
 
 template <int D>
@@ -285,9 +323,10 @@ void Measurement<D>::add_maps(Measured& measured, const StopRequest& stop) const
   const FieldGrid<D> grid(simulation_.model(), cells_of<D>(measure_));
   const auto maps_of = [&](const CellSums& sums, double begin, double end) {
     FieldMaps maps{begin, end, {grid.widths().begin(), grid.widths().end()}, {}};
-    for (const Field field : measure_.fields) {
+    for (const Field field : fields_) {
       stop.check();
       maps.maps.push_back(field_map(field, sums, grid, cells_->layout()));
+      maps.maps.back().species = species_of(field);
     }
     return maps;
   };
@@ -399,6 +438,10 @@ Measured Measurement<D>::means() const {
     measured.pressure[side] =
         estimate([&](const auto& w) { return w.wall_impulse[side] / (w.duration * area); });
   }
+  if (species_) {
+    measured.species = species_means<D>(species_windows_, model, species_->counts());
+    measured.pairs = pair_means<D>(species_windows_, model, species_->counts());
+  }
   const bool walled = std::ranges::any_of(model.walls, [](const auto& wall) { return !!wall; });
   if (!walled && count >= 2.0) {
     // The total momentum is conserved, so D(N - 1) degrees of freedom carry the temperature.
@@ -424,15 +467,16 @@ Measured Measurement<D>::result(const StopRequest& stop) {
     measured.residuals = residuals_;
   }
   if (cells_) {
-    measured.profile = profile_of(columns_, cells_->grid(), cells_->layout(), measure_.fields,
-                                  measure_.profile_axis);
+    measured.profile =
+        profile_of(columns_, cells_->grid(), cells_->layout(), fields_, measure_.profile_axis);
+    for (const Field field : fields_) measured.profile->species.push_back(species_of(field));
   }
   if (cells_ || balance_) add_maps(measured, stop);
   return measured;
 }
 
-template double cells_memory<2>(const Measure&, bool);
-template double cells_memory<3>(const Measure&, bool);
+template double cells_memory<2>(const Measure&, bool, std::size_t);
+template double cells_memory<3>(const Measure&, bool, std::size_t);
 template bool averages_go_on<2>(const RunState<2>&, bool, const Model<2>&, const Measure&);
 template bool averages_go_on<3>(const RunState<3>&, bool, const Model<3>&, const Measure&);
 template class Measurement<2>;

@@ -11,6 +11,8 @@
 #include "engine/measure/field_maps.h"
 #include "engine/measure/profile.h"
 #include "engine/measure/residuals.h"
+#include "engine/measure/species_means.h"
+#include "engine/measure/species_totals.h"
 #include "engine/measure/totals.h"
 #include "engine/observables/observables.h"
 #include "engine/scene/scene.h"
@@ -61,6 +63,8 @@ struct Measured {
   /// [2 D] on each Side: momentum per time and length, in 3D per time and area.
   std::vector<std::optional<Estimate>> pressure;
   std::optional<Estimate> compressibility;  ///< Z = p/(rho T) from the virial, fully periodic boxes
+  std::vector<SpeciesMeans> species;        ///< [S] of a mixture; empty: the particles are alike
+  std::vector<PairMeans> pairs;             ///< of the pairs of species of a mixture
   std::optional<Profile> profile;           ///< if averaged fields are requested
   std::optional<Residuals> residuals;       ///< if residuals are requested
   std::optional<FieldMaps> maps;            ///< of all requested fields, over `duration`
@@ -73,9 +77,9 @@ struct Measured {
 };
 
 /// Upper estimate of the memory of fields and balances in a measurement, in bytes; 0 without
-/// fields. `spins`: whether the particles spin.
+/// fields. `spins`: whether the particles spin. `species`: number of species of a mixture.
 template <int D>
-double cells_memory(const Measure& measure, bool spins);
+double cells_memory(const Measure& measure, bool spins, std::size_t species = 0);
 
 /// Whether averages of a saved run can continue under a model. They cannot under another gravity or
 /// wall motion. With fields they cannot if spins appear or change their inertia.
@@ -135,16 +139,19 @@ class Measurement final : private Observer<D> {
   template <class Archive>
   void visit_averages(Archive& io);
   void start();
-  void open_cells();
+  void open_sums();
   void close_window();
   void close_balance();
+  std::string species_of(Field field) const;
   void add_maps(Measured& measured, const StopRequest& stop) const;
 
   Simulation<D>& simulation_;
-  Measure measure_;  // without residuals among its fields
-  double end_;       // simulation time
-  bool balanced_;    // whether residuals are requested
+  Measure measure_;            // without residuals among its fields
+  double end_;                 // simulation time
+  bool balanced_;              // whether residuals are requested
+  std::vector<Field> fields_;  // those of measure_, and of each species of a mixture
   Totals<D> totals_;
+  std::optional<SpeciesTotals<D>> species_;  // of a mixture
   std::optional<CellIntegrals<D>> cells_;
   std::optional<Balance<D>> balance_;
   double series_start_ = 0.0;  // simulation times
@@ -153,8 +160,9 @@ class Measurement final : private Observer<D> {
   bool started_ = false;
   EventCounts counts_at_start_;
   std::vector<WindowTotals<D>> windows_;
-  std::vector<CellSums> columns_;  // [windows]
-  PartSums<CellSums> parts_;       // of the windows
+  std::vector<SpeciesTotalsWindow<D>> species_windows_;  // [windows] of a mixture
+  std::vector<CellSums> columns_;                        // [windows]
+  PartSums<CellSums> parts_;                             // of the windows
   Residuals residuals_;
   std::uint64_t samples_ = 0;  // samples of the snapshot estimator so far
   TemperatureSeries series_;
@@ -162,12 +170,12 @@ class Measurement final : private Observer<D> {
   bool go_on_ = true;      // whether the averages continue under the next laws
   std::size_t particles_;  // number of them under the present laws
   Observation<D> own_, of_totals_;
-  std::optional<Observation<D>> of_cells_, of_balance_;
+  std::optional<Observation<D>> of_species_, of_cells_, of_balance_;
   std::optional<Timers<D>> timers_;
 };
 
-extern template double cells_memory<2>(const Measure&, bool);
-extern template double cells_memory<3>(const Measure&, bool);
+extern template double cells_memory<2>(const Measure&, bool, std::size_t);
+extern template double cells_memory<3>(const Measure&, bool, std::size_t);
 extern template bool averages_go_on<2>(const RunState<2>&, bool, const Model<2>&, const Measure&);
 extern template bool averages_go_on<3>(const RunState<3>&, bool, const Model<3>&, const Measure&);
 extern template class Measurement<2>;

@@ -1,8 +1,26 @@
 #include "engine/measure/moment_layout.h"
 
+#include <algorithm>
+
 #include "engine/measure/fields.h"
 
 namespace clatter {
+
+// The sums of each species are the first sums of a row: count, mass, momentum, squares.
+template <int D>
+static void keep_species(MomentLayout<D>& layout, std::span<const Field> fields) {
+  for (const Field field : fields) {
+    if (field.species == Field::kNone) continue;
+    layout.species_count = std::max(layout.species_count, field.species + 1);
+    int size = 1;
+    if (field.quantity == Quantity::Velocity) size = layout.momentum + D;
+    if (field.quantity == Quantity::Temperature) size = layout.squares + D;
+    layout.species_size = std::max(layout.species_size, size);
+  }
+  if (layout.species_count == 0) return;
+  layout.species = layout.size;
+  layout.size += layout.species_count * layout.species_size;
+}
 
 template <int D>
 MomentLayout<D> moment_layout(std::span<const Field> fields, bool spins, bool mixed) {
@@ -21,6 +39,8 @@ MomentLayout<D> moment_layout(std::span<const Field> fields, bool spins, bool mi
   keep(sum::kEnergyFlux, layout.energy_flux, D);
   if (spins) keep(sum::kSpin, layout.spin, kSpinSize<D>);
   if (spins) keep(sum::kSpinEnergy, layout.spin_energy, 1);
+  layout.common = layout.size;
+  keep_species(layout, fields);
   layout.kinetic = layout.size;
   keep(sum::kTransfer, layout.transfer, D * D);
   keep(sum::kEnergyTransfer, layout.energy_transfer, D);

@@ -31,12 +31,19 @@ struct MomentLayout {
   int energy_flux = kAbsent;      ///< D: sum (m v^2 + I omega^2)/2 v_k
   int spin = kAbsent;             ///< of Spin<D>: sum omega
   int spin_energy = kAbsent;      ///< 1: sum I omega^2 / 2
+  int common = 1;                 ///< end of the kinetic sums of all particles
+  int species = kAbsent;          ///< species_count * species_size: sums of each species
+  int species_count = 0;          ///< number of species, from the first, that have sums
+  int species_size = 0;           ///< numbers of each: the first ones of a row
   int kinetic = 1;                ///< end of the kinetic sums
   int transfer = kAbsent;         ///< D^2, [k][l]: sum r_12,k dp_1,l
   int energy_transfer = kAbsent;  ///< D: sum (dE_1 - dE_2)/2 r_12,k; at walls dE_1 (r_1 - r_w)_k
   int along_branch = 1;           ///< end of the sums spread along branch vectors
   int dissipation = kAbsent;      ///< 1: sum (dE_1 + dE_2)/2, at either end
   int size = 1;                   ///< numbers in a row
+
+  /// Index of the first sum of a species.
+  int of_species(int number) const { return species + number * species_size; }
 };
 
 /// The layout for these fields. `spins`: whether the particles spin, and so carry energy of spin.

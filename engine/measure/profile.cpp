@@ -32,12 +32,14 @@ class Column {
   // The mean is the field of the windows' totals. The error comes from blocking of the windows'
   // contributions, linearised in their sums: a window's sum k minus the average times its length.
   Estimate estimate(Field field) const {
-    const double mean = field_value(field, averages_of<D, Dual>(layout_, along(-1).data())).value;
+    const double mean =
+        field_value(field, averages_of<D, Dual>(layout_, along(-1).data(), field.species)).value;
     if (std::isnan(mean)) return {mean, 0.0};
     std::vector<double> parts(windows_.size());
     const auto count = static_cast<double>(windows_.size());
     for (int k = 0; k < layout_.size; ++k) {
-      const double slope = field_value(field, averages_of<D, Dual>(layout_, along(k).data())).slope;
+      const double slope =
+          field_value(field, averages_of<D, Dual>(layout_, along(k).data(), field.species)).slope;
       if (slope == 0.0) continue;
       const double average = totals_[k] / total_weight(k);
       const double scale = slope * count / (total_weight(k) * measure_);

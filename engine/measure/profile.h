@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "engine/measure/cell_integrals.h"
@@ -17,6 +18,13 @@ struct Profile {
   std::vector<double> edges;                  ///< [columns + 1] along the axis
   std::vector<Field> fields;                  ///< the requested fields
   std::vector<std::vector<Estimate>> values;  ///< [fields][columns]
+  /// [fields] names of the species; empty, all or some: of all particles.
+  std::vector<std::string> species = {};
+
+  /// The name of a field in files, by its index.
+  std::string name(std::size_t field) const {
+    return name_of(fields[field], species.empty() ? std::string() : species[field]);
+  }
 
   /// The values of a requested field; throws std::out_of_range for another field.
   const std::vector<Estimate>& at(Field field) const;

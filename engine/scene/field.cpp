@@ -53,6 +53,10 @@ std::string name_of(Field field) {
          part_suffix(field.part);
 }
 
+std::string name_of(Field field, const std::string& species) {
+  return name_of(field) + (species.empty() ? "" : '_' + species);
+}
+
 std::string joint_name_of(Field field) {
   const bool alone = is_residual(field) || traits_of(field.quantity).rank == Rank::MeanAndShares;
   return alone ? name_of(field)

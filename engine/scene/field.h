@@ -35,6 +35,7 @@ struct Field {
   std::int8_t i = kNone;  ///< axis of the component; kNone for scalars and the mean temperature
   std::int8_t j = kNone;  ///< second axis of a tensor's component, i <= j
   Part part = Part::Total;
+  std::int16_t species = kNone;  ///< number of the species that it is of; kNone: all particles
 
   constexpr Field() = default;
   constexpr Field(Quantity quantity, int i = kNone, int j = kNone, Part part = Part::Total)
@@ -43,6 +44,13 @@ struct Field {
         j(static_cast<std::int8_t>(j)),
         part(part) {}
   constexpr Field(Quantity quantity, int i, Part part) : Field(quantity, i, kNone, part) {}
+
+  /// The same field of one species of a mixture.
+  constexpr Field of(std::size_t number) const {
+    Field field = *this;
+    field.species = static_cast<std::int16_t>(number);
+    return field;
+  }
 
   bool operator==(const Field&) const = default;
 };
@@ -177,6 +185,12 @@ constexpr bool of_spins(Field field) {
   return traits_of(field.quantity).kind == Kind::SpinAverage;
 }
 
+/// Whether a quantity is also one of each species of a mixture: density, velocity and temperature.
+constexpr bool has_species(Quantity quantity) {
+  return quantity == Quantity::Density || quantity == Quantity::Velocity ||
+         quantity == Quantity::Temperature;
+}
+
 /// Signs of the values of a field.
 Sign sign_of(Field field);
 
@@ -194,8 +208,11 @@ std::string unit_of(Quantity quantity, int dimension);
 /// A field and its name in scenes and files.
 using NamedField = std::pair<std::string, Field>;
 
-/// The name of a field in files: "stress_xy_kinetic".
+/// The name of a field in files, of all particles: "stress_xy_kinetic".
 std::string name_of(Field field);
+
+/// The name of a field of a species, "temperature_x_large"; without a species name_of(field).
+std::string name_of(Field field, const std::string& species);
 
 /// The common name of all components of a field: "stress_kinetic" for each component of the kinetic
 /// stress. Components of temperatures and residuals have only their own names.

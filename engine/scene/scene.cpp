@@ -138,6 +138,7 @@ template <int D>
 static SpeciesLaws<D> species_laws(const Scene& scene) {
   SpeciesLaws<D> laws;
   for (std::size_t a = 0; a < scene.species.size(); ++a) {
+    laws.names.push_back(scene.species[a].name);
     for (std::size_t b = 0; b < scene.species.size(); ++b) {
       laws.pairs.push_back(scene.pair_law(a, b));
     }
