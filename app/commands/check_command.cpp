@@ -10,6 +10,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/flags.h"
 #include "app/measure/feature_cost.h"
+#include "app/results/theory_json.h"
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
 #include "engine/dynamics/tile_sizes.h"
@@ -55,8 +56,7 @@ void print_way(const Scene& scene) {
 
 void print_events(const Scene& scene, double end) {
   const double temperature = scene.particles.start.temperature;
-  const double rate = 0.5 * scene.particles.count *
-                      enskog_rate(scene.packing_fraction(), temperature, scene.dimension());
+  const double rate = 0.5 * scene.particles.count * collision_rate(scene, temperature);
   std::fprintf(stderr, "Events until t = %g: about %.3g collisions", end, rate * end);
   if (scene.bulk_drive) {
     std::fprintf(stderr, ", %.3g kicks of all particles",

@@ -6,11 +6,11 @@
 #include <array>
 #include <cmath>
 
+#include "app/results/theory_json.h"
 #include "engine/dimension.h"
 #include "engine/initial/memory.h"
 #include "engine/measure/measurement.h"
 #include "engine/observables/observables.h"
-#include "engine/physics/theory.h"
 #include "engine/scene/enum_names.h"
 #include "engine/system/allocation.h"
 
@@ -43,9 +43,11 @@ FeatureCost fields_of(const Scene& scene) {
     price = averages ? price + kBalanceCost - 1.0 : kBalanceCost;
   }
   return {"fields", names_of(measure.fields, scene.dimension()),
-          with_dimension(
-              scene.dimension(),
-              [&](auto dimension) { return cells_memory<dimension>(measure, scene.spins()); }),
+          with_dimension(scene.dimension(),
+                         [&](auto dimension) {
+                           return cells_memory<dimension>(measure, scene.spins(),
+                                                          scene.species.size());
+                         }),
           price};
 }
 
@@ -77,8 +79,7 @@ constexpr std::array<ObservablePrice, 17> kObservablePrices = {
 FeatureCost observables_of(const Scene& scene) {
   const Measure& measure = scene.measure;
   if (measure.observables.empty()) return {"observables", "no", 0.0, std::nan("")};
-  const double rate =
-      enskog_rate(scene.packing_fraction(), scene.particles.start.temperature, scene.dimension());
+  const double rate = collision_rate(scene, scene.particles.start.temperature);
   std::string names;
   double price = 1.0;
   for (const auto& [kind, surcharge] : kObservablePrices) {
@@ -94,8 +95,7 @@ FeatureCost observables_of(const Scene& scene) {
 // start.
 double kick_cost(const Scene& scene) {
   constexpr double kKick = 0.45;
-  const double rate =
-      enskog_rate(scene.packing_fraction(), scene.particles.start.temperature, scene.dimension());
+  const double rate = collision_rate(scene, scene.particles.start.temperature);
   return 1.0 + kKick / (0.5 * rate * scene.bulk_drive->interval);
 }
 

@@ -17,6 +17,7 @@
 #include "app/results/hdf5_file.h"
 #include "app/results/json_text.h"
 #include "app/results/result_json.h"
+#include "app/results/theory_json.h"
 #include "app/results/trajectory.h"
 #include "app/results/vtk_files.h"
 #include "app/runs/run.h"
@@ -26,7 +27,6 @@
 #include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/measure/measurement.h"
-#include "engine/physics/theory.h"
 #include "engine/scene/act_checks.h"
 #include "engine/scene/enum_names.h"
 #include "engine/scene/state_file.h"
@@ -55,8 +55,7 @@ void advise_on_contact_time(const Scene& scene, const Measured& measured) {
   if (!scene.contact_time || elastic <= kMaxElastic * all) return;
   std::fprintf(stderr, "note: collapse.contact_time made %.0f %% of all collisions elastic, ",
                100.0 * elastic / all);
-  const double rate =
-      enskog_rate(scene.packing_fraction(), measured.temperature.mean, scene.dimension());
+  const double rate = collision_rate(scene, measured.temperature.mean);
   if (*scene.contact_time * rate > kLong) {
     std::fprintf(
         stderr,

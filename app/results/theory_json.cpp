@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/results/mixture_theory_json.h"
+
 namespace clatter {
 
 using Json = nlohmann::ordered_json;
@@ -17,7 +19,8 @@ std::optional<VibratedGas> vibrated_gas(const Scene& scene) {
                      left->drive_speed == right->drive_speed;
   const bool falls = scene.gravity && scene.gravity->norm() > 0.0;
   const bool open = scene.periodic(1) && (scene.dimension() == 2 || scene.periodic(2));
-  if (!alike || !open || scene.particles.count == 0 || scene.spins() || falls || scene.bulk_drive) {
+  if (!alike || !open || scene.particles.count == 0 || scene.spins() || falls || scene.bulk_drive ||
+      !scene.species.empty()) {
     return std::nullopt;
   }
   return VibratedGas{static_cast<double>(scene.particles.count),
@@ -32,7 +35,7 @@ std::optional<VibratedGas> vibrated_gas(const Scene& scene) {
 std::optional<Atmosphere> atmosphere(const Scene& scene) {
   const Particles& particles = scene.particles;
   if (!scene.gravity || particles.restitution != 1.0 || particles.count == 0 || scene.spins() ||
-      scene.bulk_drive) {
+      scene.bulk_drive || !scene.species.empty()) {
     return std::nullopt;
   }
   Eigen::Index axis = 0;
@@ -82,16 +85,26 @@ static bool is_homogeneous_gas(const Scene& scene) {
   return !walled && scene.particles.count > 1 && !scene.gravity;
 }
 
+// Whether collisions of particles lose energy.
+static bool dissipates(const Scene& scene) {
+  const std::size_t species = std::max<std::size_t>(scene.species.size(), 1);
+  for (std::size_t a = 0; a < species; ++a) {
+    for (std::size_t b = 0; b <= a; ++b) {
+      if (scene.pair_law(a, b).dissipates()) return true;
+    }
+  }
+  return false;
+}
+
 bool cools_freely(const Scene& scene) {
-  const Particles& particles = scene.particles;
-  const bool perfect = std::isinf(particles.roughness.friction_in_force()) &&
-                       particles.roughness.tangential_restitution_in_force() == 1.0;
-  const bool loses = particles.restitution < 1.0 || (scene.spins() && !perfect);
-  return is_homogeneous_gas(scene) && !scene.bulk_drive && loses;
+  return is_homogeneous_gas(scene) && !scene.bulk_drive && dissipates(scene);
 }
 
 std::optional<double> haff_rate(const Scene& scene) {
-  if (!is_homogeneous_gas(scene) || scene.spins() || scene.bulk_drive) return std::nullopt;
+  const bool mixture = !scene.species.empty();
+  if (!is_homogeneous_gas(scene) || scene.spins() || scene.bulk_drive || mixture) {
+    return std::nullopt;
+  }
   return haff_rate_periodic(scene.packing_fraction(), scene.particles.restitution,
                             scene.particles.start.temperature, scene.dimension());
 }
@@ -125,7 +138,23 @@ static void add_homogeneous(Json& json, const Scene& scene) {
   if (rough) json["temperature_ratio"] = gas.driven_ratio();
 }
 
+double collision_rate(const Scene& scene, double temperature) {
+  if (scene.species.empty()) {
+    return enskog_rate(scene.packing_fraction(), temperature, scene.dimension());
+  }
+  const MixtureGas gas = mixture_gas(scene);
+  const MixtureTemperatures temperatures = gas.equal(temperature);
+  double sum = 0.0;
+  for (std::size_t s = 0; s < gas.components.size(); ++s) {
+    for (std::size_t t = 0; t < gas.components.size(); ++t) {
+      sum += gas.components[s].count * gas.collision_rate(s, t, temperatures);
+    }
+  }
+  return gas.components.empty() ? 0.0 : sum / gas.count();
+}
+
 Json theory_json(const Scene& scene) {
+  if (!scene.species.empty()) return mixture_theory_json(scene);
   Json json{{"chi", contact_correlation(scene.packing_fraction(), scene.dimension())}};
   if (const auto gas = vibrated_gas(scene)) {
     add_vibrated(json, *gas, scene.particles.start.temperature);

@@ -25,8 +25,13 @@ bool cools_freely(const Scene& scene);
 /// that cool without any force.
 std::optional<double> haff_rate(const Scene& scene);
 
+/// Enskog's collisions per particle and time (theory 6.2, 12.10), at the same temperature of all
+/// species of a mixture.
+double collision_rate(const Scene& scene, double temperature);
+
 /// The predictions of kinetic theory for a scene. Empty unless physics/theory.h covers the scene: a
-/// gas between two vibrated walls, or a gas in a periodic box.
+/// gas between two vibrated walls, or a gas in a periodic box. For mixtures see
+/// mixture_theory_json().
 nlohmann::ordered_json theory_json(const Scene& scene);
 
 }  // namespace clatter
