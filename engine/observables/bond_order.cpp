@@ -3,6 +3,7 @@
 #include <complex>
 
 #include "engine/observables/lag_table.h"
+#include "engine/observables/near_pairs.h"
 
 namespace clatter {
 
@@ -22,7 +23,9 @@ struct BondSums {
 BondOrder::BondOrder(const Simulation<2>& simulation, const BondOrderSettings& settings)
     : simulation_(simulation),
       lags_(settings.lags_in_time),
-      cells_(simulation.model(), simulation.particles().size(), settings.range),
+      range_(settings.range),
+      cells_(simulation.model(), simulation.particles().size(),
+             settings.range * simulation.model().diameter),
       history_(lags_) {}
 
 void BondOrder::save(ArchiveWriter& io) {
@@ -43,6 +46,7 @@ std::vector<Vec<2>> BondOrder::orders() {
   std::vector<double> neighbours(count, 0.0);
   cells_.sort(simulation_.positions());
   cells_.each_pair([&](std::uint32_t first, std::uint32_t second, const Vec<2>& apart) {
+    if (!are_near(simulation_, first, second, apart, range_)) return;
     const std::complex<double> direction = std::complex(apart[0], apart[1]) / apart.norm();
     const std::complex<double> cube = direction * direction * direction;
     const std::complex<double> bond = cube * cube;

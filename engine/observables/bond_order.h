@@ -27,6 +27,7 @@ class BondOrder final : public Observable {
 
   const Simulation<2>& simulation_;
   TimeCorrelationSettings lags_;
+  double range_;  // in distances of centres at contact
   NearCells<2> cells_;
   LagHistory<2> history_;
 };

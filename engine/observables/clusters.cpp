@@ -5,6 +5,7 @@
 
 #include "engine/observables/count_bins.h"
 #include "engine/observables/histogram.h"
+#include "engine/observables/near_pairs.h"
 
 namespace clatter {
 
@@ -26,7 +27,9 @@ struct ClusterSums {
 template <int D>
 Clusters<D>::Clusters(const Simulation<D>& simulation, const ClusterSettings& settings)
     : simulation_(simulation),
-      cells_(simulation.model(), simulation.particles().size(), settings.range) {}
+      range_(settings.range),
+      cells_(simulation.model(), simulation.particles().size(),
+             settings.range * simulation.model().diameter) {}
 
 template <int D>
 std::size_t Clusters<D>::size() const {
@@ -66,8 +69,9 @@ void Clusters<D>::sample() {
   std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   sizes_.assign(count, 1);
   cells_.sort(simulation_.positions());
-  cells_.each_pair(
-      [&](std::uint32_t first, std::uint32_t second, const Vec<D>&) { join(first, second); });
+  cells_.each_pair([&](std::uint32_t first, std::uint32_t second, const Vec<D>& apart) {
+    if (are_near(simulation_, first, second, apart, range_)) join(first, second);
+  });
 
   std::vector<double>& sums = sums_.values;
   std::size_t largest = 0;

@@ -25,6 +25,7 @@ class Clusters final : public Observable {
   void join(std::size_t first, std::size_t second);
 
   const Simulation<D>& simulation_;
+  double range_;  // in distances of centres at contact
   NearCells<D> cells_;
   std::vector<std::size_t> parent_;  // [N] trees of connected particles; a root is its own parent
   std::vector<std::size_t> sizes_;   // [N] particles of the tree, at roots

@@ -258,7 +258,7 @@ double observables_memory(const Scene& scene) {
                  sizeof(std::uint32_t) * measure.local_density.number_of_cells(scene.box);
         break;
       case ObservableKind::Probe:
-        bytes += sums(9.0, 9.0) + sample + Probe<3>::kRows * (9.0 + 6.0) * sizeof(double);
+        bytes += sums(10.0, 10.0) + sample + Probe<3>::kRows * (10.0 + 6.0) * sizeof(double);
         break;
       case ObservableKind::CollisionCounts:
         bytes += sums(2.0 * CountBins::kCount + 5.0, 5.0) + CollisionCounts<3>::memory(particles);

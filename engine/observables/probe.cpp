@@ -17,7 +17,8 @@ struct ProbeSums {
   static constexpr std::size_t kFreedoms = 3;  // degrees of freedom of the temperature
   static constexpr std::size_t kEnergy = 4;    // twice the energy in them
   static constexpr std::size_t kTime = 5;
-  static constexpr std::size_t kVelocity = 6;  // of all particles, along each axis
+  static constexpr std::size_t kMass = 6;
+  static constexpr std::size_t kMomentum = 7;  // along each axis
 };
 
 }  // namespace
@@ -28,7 +29,7 @@ Probe<D>::Probe(const Simulation<D>& simulation, const ProbeSettings& settings)
 
 template <int D>
 std::size_t Probe<D>::size() const {
-  return ProbeSums::kVelocity + D;
+  return ProbeSums::kMomentum + D;
 }
 
 template <int D>
@@ -58,16 +59,19 @@ void Probe<D>::restore(ArchiveReader& io) {
 template <int D>
 void Probe<D>::sample() {
   const State<D> state = simulation_.state();
-  double number = 0.0, squares = 0.0;
-  Vec<D> sum = Vec<D>::Zero();
+  double number = 0.0, mass = 0.0, squares = 0.0;
+  Vec<D> momentum = Vec<D>::Zero();
   for (std::size_t i = 0; i < state.positions.size(); ++i) {
     if (!region_.contains(state.positions[i])) continue;
+    const double m = simulation_.grain(static_cast<std::uint32_t>(i)).mass;
     number += 1.0;
-    sum += state.velocities[i];
+    mass += m;
+    momentum += m * state.velocities[i];
   }
   for (std::size_t i = 0; i < state.positions.size(); ++i) {
     if (!region_.contains(state.positions[i])) continue;
-    squares += (state.velocities[i] - sum / number).squaredNorm();
+    const double m = simulation_.grain(static_cast<std::uint32_t>(i)).mass;
+    squares += m * (state.velocities[i] - momentum / mass).squaredNorm();
   }
   ObservableSums row{std::vector<double>(size(), 0.0)};
   row.values[ProbeSums::kSamples] = 1.0;
@@ -76,8 +80,9 @@ void Probe<D>::sample() {
   if (number > 1.0) row.values[ProbeSums::kFreedoms] = D * (number - 1.0);
   row.values[ProbeSums::kEnergy] = squares;
   row.values[ProbeSums::kTime] = simulation_.time();
+  row.values[ProbeSums::kMass] = mass;
   for (std::size_t axis = 0; axis < D; ++axis) {
-    row.values[ProbeSums::kVelocity + axis] = sum[static_cast<int>(axis)];
+    row.values[ProbeSums::kMomentum + axis] = momentum[static_cast<int>(axis)];
   }
   sums_ += row;
   rows_.add(std::move(row));
@@ -107,7 +112,8 @@ ResultTable Probe<D>::series() const {
     table.columns[1].values.push_back(number / samples / region_.volume());
     table.columns[2].values.push_back(ratio(sums[ProbeSums::kEnergy], sums[ProbeSums::kFreedoms]));
     for (std::size_t axis = 0; axis < D; ++axis) {
-      table.columns[3 + axis].values.push_back(ratio(sums[ProbeSums::kVelocity + axis], number));
+      table.columns[3 + axis].values.push_back(
+          ratio(sums[ProbeSums::kMomentum + axis], sums[ProbeSums::kMass]));
     }
   }
   return table;
@@ -122,9 +128,8 @@ ObservableResult Probe<D>::result(const ObservableParts& parts) const {
        {"probe.number_variance", variance_of(parts.fine, ProbeSums::kSamples)},
        {"probe.temperature", ratio_of(parts.fine, ProbeSums::kEnergy, ProbeSums::kFreedoms)}}};
   for (std::size_t axis = 0; axis < D; ++axis) {
-    result.means.emplace_back(
-        "probe." + velocity_name(axis),
-        ratio_of(parts.fine, ProbeSums::kVelocity + axis, ProbeSums::kNumber));
+    result.means.emplace_back("probe." + velocity_name(axis),
+                              ratio_of(parts.fine, ProbeSums::kMomentum + axis, ProbeSums::kMass));
   }
   return result;
 }

@@ -26,6 +26,28 @@ struct SpinSums {
 template <int D>
 constexpr int kComponents = D == 2 ? 1 : 3;
 
+// Spins of a mixture times the root of the moment of inertia. All have the same distribution in
+// equilibrium.
+template <int D>
+void weigh(std::vector<Spin<D>>& spins, const std::vector<Grain>& grains) {
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    spins[i] *= std::sqrt(grains[i].moment_of_inertia());
+  }
+}
+
+// Velocity of the centre of mass.
+template <int D>
+Vec<D> mean_velocity(const State<D>& state) {
+  Vec<D> momentum = Vec<D>::Zero();
+  double mass = 0.0;
+  for (std::size_t i = 0; i < state.velocities.size(); ++i) {
+    const double m = state.grains.empty() ? 1.0 : state.grains[i].mass;
+    mass += m;
+    momentum += m * state.velocities[i];
+  }
+  return momentum / mass;
+}
+
 }  // namespace
 
 template <int D>
@@ -43,12 +65,14 @@ void SpinDistribution<D>::sample() {
   const State<D> state = simulation_.state();
   const auto components = kComponents<D> * static_cast<double>(state.spins.size());
   double squares = 0.0;
-  for (const Spin<D>& spin : state.spins) squares += spin.squaredNorm();
+  std::vector<Spin<D>> spins = state.spins;
+  weigh<D>(spins, state.grains);
+  for (const Spin<D>& spin : spins) squares += spin.squaredNorm();
   const double deviation = std::sqrt(squares / components);
   if (!std::isnormal(deviation)) return;
   const double per_bin = settings_.bins / (2.0 * settings_.range);
   std::vector<double>& sums = sums_.values;
-  for (const Spin<D>& spin : state.spins) {
+  for (const Spin<D>& spin : spins) {
     const Spin<D> scaled = spin / deviation;
     for (int axis = 0; axis < kComponents<D>; ++axis) {
       // With n components, their sum of squares is n: a uniform distribution has the mean
@@ -62,9 +86,7 @@ void SpinDistribution<D>::sample() {
   }
   sums[SpinSums::kCount] += static_cast<double>(state.spins.size());
   if constexpr (D == 3) {
-    Vec<D> mean = Vec<D>::Zero();
-    for (const Vec<D>& velocity : state.velocities) mean += velocity;
-    mean /= static_cast<double>(state.velocities.size());
+    const Vec<D> mean = mean_velocity(state);
     for (std::size_t i = 0; i < state.spins.size(); ++i) {
       const Vec<D> velocity = state.velocities[i] - mean;
       const double sizes = velocity.norm() * state.spins[i].norm();

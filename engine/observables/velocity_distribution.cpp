@@ -73,17 +73,46 @@ std::size_t VelocityDistribution<D>::mean_size() const {
 template <int D>
 void VelocityDistribution<D>::find_velocities() {
   velocities_.clear();
+  masses_.clear();
+  const bool mixed = simulation_.is_mixture();
   if (region_) {
     const State<D> state = simulation_.state();
     for (std::size_t i = 0; i < state.positions.size(); ++i) {
-      if (region_->contains(state.positions[i])) velocities_.push_back(state.velocities[i]);
+      if (!region_->contains(state.positions[i])) continue;
+      velocities_.push_back(state.velocities[i]);
+      if (mixed) masses_.push_back(state.grains[i].mass);
     }
     return;
   }
   const double now = simulation_.base_time();
-  for (const Particle<D>& particle : simulation_.particles()) {
-    velocities_.push_back(particle.flight.velocity_at(now, simulation_.model().gravity));
+  for (std::uint32_t i = 0; i < simulation_.particles().size(); ++i) {
+    const Flight<D>& flight = simulation_.particles()[i].flight;
+    velocities_.push_back(flight.velocity_at(now, simulation_.model().gravity));
+    if (mixed) masses_.push_back(simulation_.grain(i).mass);
   }
+}
+
+// Replaces velocities by peculiar ones, times the root of the mass. Returns the mass of all.
+template <int D>
+double VelocityDistribution<D>::centre() {
+  Vec<D> mean = Vec<D>::Zero();
+  if (masses_.empty()) {
+    const auto count = static_cast<double>(velocities_.size());
+    for (const Vec<D>& velocity : velocities_) mean += velocity;
+    mean /= count;
+    for (Vec<D>& velocity : velocities_) velocity -= mean;
+    return count;
+  }
+  double mass = 0.0;
+  for (std::size_t i = 0; i < velocities_.size(); ++i) {
+    mass += masses_[i];
+    mean += masses_[i] * velocities_[i];
+  }
+  mean /= mass;
+  for (std::size_t i = 0; i < velocities_.size(); ++i) {
+    velocities_[i] = std::sqrt(masses_[i]) * (velocities_[i] - mean);
+  }
+  return mass;
 }
 
 template <int D>
@@ -91,11 +120,9 @@ void VelocityDistribution<D>::sample() {
   using Sums = VelocitySums<D>;
   find_velocities();
   const auto count = static_cast<double>(velocities_.size());
-  Vec<D> mean = Vec<D>::Zero();
-  for (const Vec<D>& velocity : velocities_) mean += velocity;
-  mean /= count;
+  const double mass = centre();
   double squares = 0.0;
-  for (const Vec<D>& velocity : velocities_) squares += (velocity - mean).squaredNorm();
+  for (const Vec<D>& velocity : velocities_) squares += velocity.squaredNorm();
   // The mean velocity takes D degrees of freedom.
   const double thermal = std::sqrt(squares / (D * (count - 1.0)));
   if (!std::isnormal(thermal)) return;
@@ -103,15 +130,18 @@ void VelocityDistribution<D>::sample() {
   const double per_bin = static_cast<double>(bins_) / (2.0 * range_);
   std::vector<double>& sums = sums_.values;
   Vec<D> second = Vec<D>::Zero(), third = Vec<D>::Zero(), fourth = Vec<D>::Zero();
-  for (const Vec<D>& velocity : velocities_) {
-    const Vec<D> scaled = (velocity - mean) / thermal;
-    const double square = 0.5 * scaled.squaredNorm();
+  for (std::size_t i = 0; i < velocities_.size(); ++i) {
+    // Heavy particles have a smaller mean square: 1 - m/M, of masses that are equal 1 - 1/N.
+    const double weight =
+        masses_.empty() ? 1.0 : (count - 1.0) / (count * (1.0 - masses_[i] / mass));
+    const Vec<D> scaled = velocities_[i] / thermal;
+    const double square = 0.5 * weight * scaled.squaredNorm();
     sums[Sums::kFourth] += factors.fourth_of_speed * square * square;
     sums[Sums::kSixth] += factors.sixth_of_speed * square * square * square;
     sums[Sums::kSpeeds + LogBins::of(scaled.norm())] += 1.0;
-    const Vec<D> squared = scaled.cwiseProduct(scaled);
+    const Vec<D> squared = weight * scaled.cwiseProduct(scaled);
     second += squared;
-    third += squared.cwiseProduct(scaled);
+    third += std::sqrt(weight) * squared.cwiseProduct(scaled);
     fourth += squared.cwiseProduct(squared);
     for (std::size_t axis = 0; axis < D; ++axis) {
       const double component = scaled[static_cast<int>(axis)];

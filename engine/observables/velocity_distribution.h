@@ -30,6 +30,7 @@ class VelocityDistribution final : public Observable {
 
  private:
   void find_velocities();
+  double centre();
   ResultTable components(const ObservableParts& parts) const;
 
   const Simulation<D>& simulation_;
@@ -37,6 +38,7 @@ class VelocityDistribution final : public Observable {
   std::size_t bins_;
   std::optional<Region<D>> region_;  // absent: the box
   std::vector<Vec<D>> velocities_;   // of a sample
+  std::vector<double> masses_;       // of its particles; empty: they are alike
 };
 
 extern template class VelocityDistribution<2>;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "engine/dimension.h"
 #include "engine/error.h"
@@ -166,6 +167,45 @@ static void check_region(const Scene& scene, const RegionSettings& region, const
   }
 }
 
+/// Throws if an observable of distances is requested of a mixture of sizes.
+static void check_equal_diameters(const Scene& scene, const toml::table& root,
+                                  const std::string& file) {
+  const double largest = scene.largest_diameter();
+  const bool equal = std::ranges::all_of(scene.species, [&](const Species& species) {
+    return species.smallest_diameter() == largest;
+  });
+  if (equal) return;
+  for (const ObservableKind kind :
+       {ObservableKind::RadialDistribution, ObservableKind::RadialDistributionProfile}) {
+    if (!scene.measure.observes(kind)) continue;
+    throw UserError(place_of(root, "measure.observables", file),
+                    '"' + std::string(name_of(kind, kObservables)) +
+                        "\" counts distances from one diameter on, and the species have several",
+                    "remove it, or give all species one diameter");
+  }
+}
+
+/// Throws if two fields of a mixture would have the same name in files.
+static void check_species_fields(const Scene& scene, const toml::table& root,
+                                 const std::string& file) {
+  std::vector<Field> fields = all_fields(scene.dimension());
+  std::erase_if(fields, [&](Field field) {
+    return std::ranges::find(scene.measure.fields, field) == scene.measure.fields.end();
+  });
+  std::set<std::string> names;
+  for (const Field field : fields) names.insert(name_of(field));
+  for (const Species& species : scene.species) {
+    for (const Field field : fields) {
+      const std::string name = name_of(field, species.name);
+      if (!has_species(field.quantity) || names.insert(name).second) continue;
+      throw UserError(place_of(root, "measure.fields", file),
+                      "of the species '" + species.name + "' a field would have the name \"" +
+                          name + "\", which another one has",
+                      "choose another name of the species");
+    }
+  }
+}
+
 /// Throws if the box is too small for the observables, or a longest lag is shorter than its
 /// interval.
 static void check_observables(const Scene& scene, const toml::table& root,
@@ -291,6 +331,8 @@ void check_scene(const Scene& scene, const toml::table& root, const std::string&
   check_axes(scene, root, file);
   check_fields(scene, root, file);
   check_kernel(scene, root, file);
+  check_equal_diameters(scene, root, file);
+  check_species_fields(scene, root, file);
   check_observables(scene, root, file);
   check_camera(scene, root, file);
   check_pace(scene, root, file);
