@@ -53,6 +53,12 @@ struct PairLaw {
   bool dissipates() const { return restitution < 1.0 || !roughness.conserves(); }
 };
 
+/// Index of an unordered pair of species: (0, 0), (0, 1), (1, 1), (0, 2), ...
+constexpr std::size_t pair_index(std::size_t first, std::size_t second) {
+  const std::size_t low = first < second ? first : second, high = first < second ? second : first;
+  return high * (high + 1) / 2 + low;
+}
+
 /// The laws of a mixture that differ between its species.
 template <int D>
 struct SpeciesLaws {
@@ -60,10 +66,14 @@ struct SpeciesLaws {
   std::vector<PairLaw> pairs;
   /// [S] walls that one species meets, by Side. They have the kinds and motions of Model::walls.
   std::vector<std::array<std::optional<Wall>, 2 * D>> walls;
-  std::vector<std::string> names = {};  ///< [S] for results; empty: they have numbers
+  std::vector<std::string> names = {};  ///< [S] for results; empty: numbers from 0
 
   /// Number of species.
   std::size_t count() const { return walls.size(); }
+  /// Name of a species for results.
+  std::string name(std::size_t species) const {
+    return names.empty() ? std::to_string(species) : names[species];
+  }
 };
 
 /// The laws of a run. Simulation::set_laws changes them.
@@ -116,6 +126,10 @@ struct Model {
   double kick_interval() const { return bulk_drive ? bulk_drive->interval : 0.0; }
   /// Whether the box is periodic along an axis.
   bool periodic(int axis) const { return !walls[2 * axis]; }
+  /// Whether the box has no walls.
+  bool is_periodic() const {
+    return std::ranges::none_of(walls, [](const auto& wall) { return wall.has_value(); });
+  }
   /// The box and its periodic images.
   Domain<D> domain() const {
     Domain<D> domain{.box = box};

@@ -315,7 +315,7 @@ void Measurement<D>::close_balance() {
 template <int D>
 std::string Measurement<D>::species_of(Field field) const {
   if (field.species == Field::kNone) return {};
-  return species_name(*simulation_.model().species, static_cast<std::size_t>(field.species));
+  return simulation_.model().species->name(static_cast<std::size_t>(field.species));
 }
 
 template <int D>

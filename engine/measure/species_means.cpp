@@ -78,17 +78,12 @@ SpeciesMeans means_of(Windows<D> windows, std::size_t s, const Model<D>& model) 
 }  // namespace
 
 template <int D>
-std::string species_name(const SpeciesLaws<D>& laws, std::size_t species) {
-  return laws.names.empty() ? std::to_string(species) : laws.names[species];
-}
-
-template <int D>
 std::vector<SpeciesMeans> species_means(Windows<D> windows, const Model<D>& model,
                                         const std::vector<std::size_t>& counts) {
   std::vector<SpeciesMeans> means(counts.size());
   for (std::size_t s = 0; s < counts.size(); ++s) {
     if (counts[s] > 0) means[s] = means_of(windows, s, model);
-    means[s].name = species_name(*model.species, s);
+    means[s].name = model.species->name(s);
     means[s].count = counts[s];
   }
   return means;
@@ -104,7 +99,7 @@ std::vector<PairMeans> pair_means(Windows<D> windows, const Model<D>& model,
       if (counts[first] < needed || counts[second] < needed) continue;
       const std::size_t index = pair_index(first, second);
       PairMeans& pair = means.emplace_back();
-      pair.species = {species_name(*model.species, first), species_name(*model.species, second)};
+      pair.species = {model.species->name(first), model.species->name(second)};
       pair.collision_rate = estimate_of<D>(
           windows, [&](const auto& w) { return w.pairs[index].collisions / w.duration; });
       pair.dissipated = estimate_of<D>(
@@ -114,8 +109,6 @@ std::vector<PairMeans> pair_means(Windows<D> windows, const Model<D>& model,
   return means;
 }
 
-template std::string species_name(const SpeciesLaws<2>&, std::size_t);
-template std::string species_name(const SpeciesLaws<3>&, std::size_t);
 template std::vector<SpeciesMeans> species_means(Windows<2>, const Model<2>&,
                                                  const std::vector<std::size_t>&);
 template std::vector<SpeciesMeans> species_means(Windows<3>, const Model<3>&,

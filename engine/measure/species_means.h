@@ -35,10 +35,6 @@ struct PairMeans {
   Estimate dissipated;      ///< energy per time lost, > 0
 };
 
-/// Name of a species in results: that of the scene, or its number.
-template <int D>
-std::string species_name(const SpeciesLaws<D>& laws, std::size_t species);
-
 /// The means of each species from windows of equal duration.
 template <int D>
 std::vector<SpeciesMeans> species_means(std::span<const SpeciesTotalsWindow<D>> windows,
@@ -50,8 +46,6 @@ template <int D>
 std::vector<PairMeans> pair_means(std::span<const SpeciesTotalsWindow<D>> windows,
                                   const Model<D>& model, const std::vector<std::size_t>& counts);
 
-extern template std::string species_name(const SpeciesLaws<2>&, std::size_t);
-extern template std::string species_name(const SpeciesLaws<3>&, std::size_t);
 extern template std::vector<SpeciesMeans> species_means(std::span<const SpeciesTotalsWindow<2>>,
                                                         const Model<2>&,
                                                         const std::vector<std::size_t>&);

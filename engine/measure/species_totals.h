@@ -52,12 +52,6 @@ struct SpeciesTotalsWindow {
   }
 };
 
-/// Index of an unordered pair of species: (0, 0), (0, 1), (1, 1), (0, 2), ...
-constexpr std::size_t pair_index(std::size_t first, std::size_t second) {
-  const std::size_t low = first < second ? first : second, high = first < second ? second : first;
-  return high * (high + 1) / 2 + low;
-}
-
 /// The share of each species in the totals of a mixture (see Totals). The sums over species and
 /// pairs are the totals.
 template <int D>

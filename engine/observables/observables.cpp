@@ -13,6 +13,7 @@
 #include "engine/observables/radial_distribution.h"
 #include "engine/observables/radial_distribution_profile.h"
 #include "engine/observables/signed_bins.h"
+#include "engine/observables/species_radial_distribution.h"
 #include "engine/observables/spin_distribution.h"
 #include "engine/observables/structure_factor.h"
 #include "engine/observables/time_correlation.h"
@@ -33,12 +34,23 @@ static std::unique_ptr<Observable> make_bond_order(Simulation<D>& simulation,
   }
 }
 
+// Between walls each species has its own region of centres, unless their diameters are equal.
+template <int D>
+static std::unique_ptr<Observable> make_radial_distribution(
+    Simulation<D>& simulation, const RadialDistributionSettings& settings) {
+  const Model<D>& model = simulation.model();
+  if (model.species && model.is_periodic()) {
+    return std::make_unique<SpeciesRadialDistribution<D>>(simulation, settings);
+  }
+  return std::make_unique<RadialDistribution<D>>(simulation, settings);
+}
+
 template <int D>
 static std::unique_ptr<Observable> make_observable(ObservableKind kind, Simulation<D>& simulation,
                                                    const Measure& measure) {
   switch (kind) {
     case ObservableKind::RadialDistribution:
-      return std::make_unique<RadialDistribution<D>>(simulation, measure.radial_distribution);
+      return make_radial_distribution(simulation, measure.radial_distribution);
     case ObservableKind::VelocityDistribution:
       return std::make_unique<VelocityDistribution<D>>(simulation, measure.velocity_distribution);
     case ObservableKind::FreeFlights:
@@ -206,14 +218,17 @@ double observables_memory(const Scene& scene) {
            sums(static_cast<double>(lags.lags().size()) * row, 0.0) + sample;
   };
   double bytes = 0.0;
+  const double groups = 1.0 + static_cast<double>(scene.species.size());
+  const double pairs = 1.0 + 0.5 * groups * (groups - 1.0);  // of groups, and all
   for (const ObservableKind kind : measure.observables) {
     switch (kind) {
       case ObservableKind::RadialDistribution:
-        bytes += sums(measure.radial_distribution.bins + 2.0, 2.0) + sample;
+        bytes += sums(pairs * (measure.radial_distribution.bins + 1.0) + 1.0, 1.0 + pairs) + sample;
         break;
       case ObservableKind::VelocityDistribution:
         bytes +=
-            sums(dimension * (measure.velocity_distribution.bins + 2.0 * kBins) + kBins, 12.0) +
+            sums(dimension * (groups * measure.velocity_distribution.bins + 2.0 * kBins) + kBins,
+                 9.0 + 3.0 * groups) +
             dimension * sizeof(double) * particles;
         if (measure.velocity_distribution.region.lower ||
             measure.velocity_distribution.region.upper) {
@@ -233,10 +248,10 @@ double observables_memory(const Scene& scene) {
         bytes += 2.0 * dimension * sums(2.0 * kBins, 3.0);
         break;
       case ObservableKind::MeanSquaredDisplacement:
-        bytes += history(measure.mean_squared_displacement, 1.0 + 2.0 * dimension);
+        bytes += history(measure.mean_squared_displacement, 1.0 + 2.0 * dimension * groups);
         break;
       case ObservableKind::VelocityAutocorrelation:
-        bytes += history(measure.velocity_autocorrelation, 1.0 + dimension);
+        bytes += history(measure.velocity_autocorrelation, 1.0 + dimension * groups);
         break;
       case ObservableKind::StructureFactor:
         bytes += sums(measure.structure_factor.bins + 1.0, 0.0) + sample;

@@ -17,9 +17,7 @@ struct RadialSums {
   static constexpr std::size_t kBins = 2;
 };
 
-// Weights of the bins' values that give the value at contact of the parabola fitted to the bins
-// within kReach. Empty if these are too few.
-static std::vector<double> contact_weights(double bin_width, std::size_t all_bins) {
+std::vector<double> contact_weights(double bin_width, std::size_t all_bins) {
   constexpr double kReach = 0.2;  // diameters
   constexpr double kMinBins = 6.0;
   const double within = std::floor(kReach / bin_width);

@@ -11,6 +11,11 @@
 
 namespace clatter {
 
+/// Weights of the values of g in bins beyond contact, whose sum is the value at contact of the
+/// parabola fitted to the bins within 0.2 diameters. Empty if these are too few. `bin_width` is in
+/// diameters.
+std::vector<double> contact_weights(double bin_width, std::size_t all_bins);
+
 /// g(r) of all pairs (theory 11.6): the number of pairs at distance r, relative to independent
 /// particles that are uniform in the region of centres. Edges of bins are exact to 1/1000 of a bin.
 /// Table "radial_distribution"; the mean "radial_distribution.contact" is g at contact,

@@ -45,19 +45,21 @@ void MeanSquaredDisplacement<D>::sample() {
   for (std::size_t i = 0; i < unwrapped.size(); ++i) {
     unwrapped[i] += domain.shift(images[i].template cast<double>());
   }
-  const double per_particle = 1.0 / static_cast<double>(unwrapped.size());
   history_.add(unwrapped, [&](std::size_t lag, const std::vector<Vec<D>>& earlier) {
-    Vec<D> drift = Vec<D>::Zero(), squares = Vec<D>::Zero();
-    for (std::size_t i = 0; i < unwrapped.size(); ++i) {
-      const Vec<D> moved = unwrapped[i] - earlier[i];
-      drift += moved;
-      squares += moved.cwiseAbs2();
-    }
-    double* const row = &sums_.values[lag * (1 + 2 * D)];
+    double* const row = &sums_.values[lag * row_size()];
     row[0] += 1.0;
-    for (int axis = 0; axis < D; ++axis) {
-      row[1 + axis] += drift[axis] * per_particle;
-      row[1 + D + axis] += squares[axis] * per_particle;
+    for (std::size_t group = 0; group < groups_.count(); ++group) {
+      Vec<D> drift = Vec<D>::Zero(), squares = Vec<D>::Zero();
+      groups_.for_each(group, [&](std::size_t i) {
+        const Vec<D> moved = unwrapped[i] - earlier[i];
+        drift += moved;
+        squares += moved.cwiseAbs2();
+      });
+      double* const sums = row + 1 + 2 * D * group;
+      for (int axis = 0; axis < D; ++axis) {
+        sums[axis] += drift[axis] * groups_.per_particle(group);
+        sums[D + axis] += squares[axis] * groups_.per_particle(group);
+      }
     }
   });
 }
@@ -65,13 +67,18 @@ void MeanSquaredDisplacement<D>::sample() {
 template <int D>
 ObservableResult MeanSquaredDisplacement<D>::result(const ObservableParts& parts) const {
   LagTable table("mean_squared_displacement", settings_.interval, history_.lags(), parts.coarse,
-                 {0, 1 + 2 * D});
-  table.add("total", "a^2", 1 + D, D, 1.0);
-  for (int axis = 0; axis < D; ++axis) {
-    table.add(axis_name(axis), "a^2", static_cast<std::size_t>(1 + D + axis), 1, 1.0);
-  }
-  for (int axis = 0; axis < D; ++axis) {
-    table.add("drift_" + axis_name(axis), "a", static_cast<std::size_t>(1 + axis), 1, 1.0);
+                 {0, row_size()});
+  for (std::size_t group = 0; group < groups_.count(); ++group) {
+    const std::size_t drift = 1 + 2 * D * group, squares = drift + D;
+    const std::string of = groups_.suffix(group);
+    table.add("total" + of, "a^2", squares, D, 1.0);
+    for (int axis = 0; axis < D; ++axis) {
+      table.add(axis_name(axis) + of, "a^2", squares + static_cast<std::size_t>(axis), 1, 1.0);
+    }
+    for (int axis = 0; axis < D; ++axis) {
+      table.add("drift_" + axis_name(axis) + of, "a", drift + static_cast<std::size_t>(axis), 1,
+                1.0);
+    }
   }
   return {{std::move(table).table()}, {}};
 }
@@ -98,25 +105,32 @@ void VelocityAutocorrelation<D>::sample() {
     velocities.push_back(
         particle.flight.velocity_at(simulation_.base_time(), simulation_.model().gravity));
   }
-  const double per_particle = 1.0 / static_cast<double>(velocities.size());
   history_.add(velocities, [&](std::size_t lag, const std::vector<Vec<D>>& earlier) {
-    Vec<D> products = Vec<D>::Zero();
-    for (std::size_t i = 0; i < velocities.size(); ++i) {
-      products += velocities[i].cwiseProduct(earlier[i]);
-    }
-    double* const row = &sums_.values[lag * (1 + D)];
+    double* const row = &sums_.values[lag * row_size()];
     row[0] += 1.0;
-    for (int axis = 0; axis < D; ++axis) row[1 + axis] += products[axis] * per_particle;
+    for (std::size_t group = 0; group < groups_.count(); ++group) {
+      Vec<D> products = Vec<D>::Zero();
+      groups_.for_each(group,
+                       [&](std::size_t i) { products += velocities[i].cwiseProduct(earlier[i]); });
+      double* const sums = row + 1 + D * group;
+      for (int axis = 0; axis < D; ++axis) {
+        sums[axis] += products[axis] * groups_.per_particle(group);
+      }
+    }
   });
 }
 
 template <int D>
 ObservableResult VelocityAutocorrelation<D>::result(const ObservableParts& parts) const {
   LagTable table("velocity_autocorrelation", settings_.interval, history_.lags(), parts.coarse,
-                 {0, 1 + D});
-  table.add("mean", "a^2/t^2", 1, D, 1.0 / D);
-  for (int axis = 0; axis < D; ++axis) {
-    table.add(axis_name(axis), "a^2/t^2", static_cast<std::size_t>(1 + axis), 1, 1.0);
+                 {0, row_size()});
+  for (std::size_t group = 0; group < groups_.count(); ++group) {
+    const std::size_t first = 1 + D * group;
+    const std::string of = groups_.suffix(group);
+    table.add("mean" + of, "a^2/t^2", first, D, 1.0 / D);
+    for (int axis = 0; axis < D; ++axis) {
+      table.add(axis_name(axis) + of, "a^2/t^2", first + static_cast<std::size_t>(axis), 1, 1.0);
+    }
   }
   return {{std::move(table).table()}, {}};
 }

@@ -17,6 +17,8 @@ namespace clatter {
 /// logarithmic bins, and "velocity_distribution.speed" that of the speed. The means
 /// "velocity_distribution.a2" and ".a3" are the Sonine coefficients of the speed,
 /// ".second_moment_x", ".third_moment_x", ".fourth_moment_x" and so on moments of the components.
+/// In a mixture m is the mass of each particle, and T that of all; each species has its densities,
+/// ".temperature_ratio_large" T_s/T and ".a2_large" its Sonine coefficient.
 template <int D>
 class VelocityDistribution final : public Observable {
  public:
@@ -30,15 +32,20 @@ class VelocityDistribution final : public Observable {
 
  private:
   void find_velocities();
+  void note(const Grain& grain);
   double centre();
+  void add_species(ResultTable& table, std::size_t species, const ObservableParts& parts) const;
+  Estimate species_a2(std::size_t species, const ObservableParts& parts) const;
   ResultTable components(const ObservableParts& parts) const;
 
   const Simulation<D>& simulation_;
   double range_;
   std::size_t bins_;
+  std::size_t species_;              // number of species of a mixture; 0: particles are alike
   std::optional<Region<D>> region_;  // absent: the box
   std::vector<Vec<D>> velocities_;   // of a sample
   std::vector<double> masses_;       // of its particles; empty: they are alike
+  std::vector<std::uint32_t> species_of_;
 };
 
 extern template class VelocityDistribution<2>;

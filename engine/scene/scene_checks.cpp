@@ -167,7 +167,8 @@ static void check_region(const Scene& scene, const RegionSettings& region, const
   }
 }
 
-/// Throws if an observable of distances is requested of a mixture of sizes.
+/// Throws if an observable of distances is requested of a mixture of sizes, for which it is not
+/// made.
 static void check_equal_diameters(const Scene& scene, const toml::table& root,
                                   const std::string& file) {
   const double largest = scene.largest_diameter();
@@ -175,13 +176,20 @@ static void check_equal_diameters(const Scene& scene, const toml::table& root,
     return species.smallest_diameter() == largest;
   });
   if (equal) return;
-  for (const ObservableKind kind :
-       {ObservableKind::RadialDistribution, ObservableKind::RadialDistributionProfile}) {
-    if (!scene.measure.observes(kind)) continue;
-    throw UserError(place_of(root, "measure.observables", file),
-                    '"' + std::string(name_of(kind, kObservables)) +
-                        "\" counts distances from one diameter on, and the species have several",
-                    "remove it, or give all species one diameter");
+  const auto refuse = [&](const char* problem, const char* fix) {
+    throw UserError(place_of(root, "measure.observables", file), problem, fix);
+  };
+  if (scene.measure.observes(ObservableKind::RadialDistributionProfile)) {
+    refuse(
+        "\"radial_distribution_profile\" is for particles of one diameter, and the species have "
+        "several",
+        "remove it, or give all species one diameter");
+  }
+  const bool walled =
+      std::ranges::any_of(scene.walls, [](const auto& wall) { return wall.has_value(); });
+  if (walled && scene.measure.observes(ObservableKind::RadialDistribution)) {
+    refuse("\"radial_distribution\" of species of several diameters needs a box without walls",
+           "remove it or the walls, or give all species one diameter");
   }
 }
 
@@ -211,15 +219,28 @@ static void check_species_fields(const Scene& scene, const toml::table& root,
 static void check_observables(const Scene& scene, const toml::table& root,
                               const std::string& file) {
   const Measure& measure = scene.measure;
+  const double diameter = scene.largest_diameter();
+  const auto check_range = [&](ObservableKind kind, const char* key, double range) {
+    if (!measure.observes(kind) || range > diameter) return;
+    throw UserError(place_of(root, key, file),
+                    "the range " + number_text(range) + " is not above the largest diameter",
+                    "choose more than " + number_text(diameter));
+  };
+  check_range(ObservableKind::RadialDistribution, "measure.radial_distribution.range",
+              measure.radial_distribution.range);
+  check_range(ObservableKind::RadialDistributionProfile,
+              "measure.radial_distribution_profile.range",
+              measure.radial_distribution_profile.range);
   for (int axis = 0; axis < scene.dimension(); ++axis) {
-    const double longest = scene.periodic(axis) ? 0.5 * scene.box[axis] : scene.box[axis] - 1.0;
+    const double longest =
+        scene.periodic(axis) ? 0.5 * scene.box[axis] : scene.box[axis] - diameter;
     for (const ObservableKind kind :
          {ObservableKind::RadialDistribution, ObservableKind::RadialDistributionProfile}) {
-      if (!measure.observes(kind) || longest > 1.0) continue;
+      if (!measure.observes(kind) || longest > diameter) continue;
       throw UserError(place_of(root, "measure.observables", file),
                       "the box is too small for the distances of \"" +
                           std::string(name_of(kind, kObservables)) + '"',
-                      "remove it, or choose sides above 2");
+                      "remove it, or choose sides above " + number_text(2.0 * diameter));
     }
   }
   const auto check_lags = [&](const std::string& name, const TimeCorrelationSettings& settings) {

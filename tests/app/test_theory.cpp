@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <stdexcept>
 
 #include "app/results/theory_json.h"
 
@@ -146,6 +147,123 @@ TEST_CASE("Theory: rough gases have the ratio of their temperatures, and kicked 
   expected.erase("temperature_driven");
   expected.erase("temperature_ratio");
   check_numbers(theory_json(scene), expected);
+}
+
+namespace {
+
+Scene mixture(double restitution) {
+  Scene scene = scene_of(restitution);
+  scene.box = Vec2(30.0, 20.0);
+  scene.particles.count = 150;
+  scene.species.resize(2);
+  scene.species[0].name = "small";
+  scene.species[0].count = 100;
+  scene.species[1].name = "large";
+  scene.species[1].count = 50;
+  scene.species[1].diameter = 2.0;
+  for (auto& walls : scene.species_walls) walls.resize(2);
+  return scene;
+}
+
+/// The number of an item of a list of a theory, by its name or names.
+double item(const json& theory, const char* list, const json& about, const char* key) {
+  for (const json& one : theory.at(list)) {
+    if (one.at(one.contains("name") ? "name" : "species") == about) return one.at(key);
+  }
+  throw std::out_of_range(key);
+}
+
+const json kBoth = {"small", "large"};
+
+}  // namespace
+
+TEST_CASE("Theory: an elastic mixture has Z, collision rates and temperatures") {
+  const Scene scene = mixture(1.0);
+  const json theory = theory_json(scene);
+  const double phi = pi * 300.0 / 4.0 / 600.0, free = 1.0 - phi, T = kStart * 150.0 / 149.0;
+  const auto chi = [&](double h) {
+    return 1.0 / free + 9.0 / 16.0 * phi / (free * free) * h * 2 / 3;
+  };
+  const double xi = 8.0 / 9.0;  // (4/3)^2 / 2
+  CHECK(theory.at("compressibility").get<double>() ==
+        doctest::Approx((1.0 - xi) / free + xi * (1.0 + phi * phi / 8.0) / (free * free)));
+  CHECK(item(theory, "pairs", kBoth, "chi") == doctest::Approx(chi(4.0 / 3.0)).epsilon(1e-12));
+  CHECK(item(theory, "pairs", {"large", "large"}, "chi") ==
+        doctest::Approx(chi(2.0)).epsilon(1e-12));
+  CHECK(item(theory, "pairs", kBoth, "collision_rate") ==
+        doctest::Approx(100.0 * std::sqrt(2.0 * pi) * 1.5 * chi(4.0 / 3.0) * 50.0 / 600.0 *
+                        std::sqrt(T * 1.25)));
+  CHECK(item(theory, "pairs", {"small", "small"}, "collision_rate") ==
+        doctest::Approx(99.0 / 2.0 * std::sqrt(2.0 * pi) * chi(1.0) * 100.0 / 600.0 *
+                        std::sqrt(T * 2.0)));
+  CHECK(item(theory, "species", "large", "temperature") ==
+        doctest::Approx(T * (1.0 - 4.0 / 300.0)).epsilon(1e-12));
+  CHECK_FALSE(theory.contains("chi"));
+  CHECK_FALSE(theory.contains("haff_rate"));
+  // Collisions per particle at one temperature.
+  const double all = item(theory, "pairs", {"small", "small"}, "collision_rate") * 100.0 / 99.0 +
+                     item(theory, "pairs", kBoth, "collision_rate") +
+                     item(theory, "pairs", {"large", "large"}, "collision_rate") * 50.0 / 49.0;
+  CHECK(collision_rate(scene, T) == doctest::Approx(2.0 * all / 150.0).epsilon(1e-12));
+}
+
+TEST_CASE("Theory: mixtures that cool have ratios, and kicked ones temperatures") {
+  Scene scene = mixture(0.9);
+  const json cooling = theory_json(scene);
+  const double small = item(cooling, "species", "small", "temperature_ratio");
+  const double large = item(cooling, "species", "large", "temperature_ratio");
+  CHECK(large > small);
+  CHECK((2.0 * small + large) / 3.0 == doctest::Approx(1.0).epsilon(1e-12));
+  CHECK(cooling.at("haff_rate").get<double>() > 0.0);
+  CHECK_FALSE(cooling.at("pairs")[0].contains("collision_rate"));
+
+  scene.bulk_drive = BulkDrive{.interval = 0.1, .kick_speed = 0.3, .law = KickLaw::Energy};
+  const json driven = theory_json(scene);
+  const double T = (2.0 * item(driven, "species", "small", "temperature") +
+                    item(driven, "species", "large", "temperature")) /
+                   3.0;
+  CHECK(driven.at("temperature_driven").get<double>() == doctest::Approx(T).epsilon(1e-12));
+  // The gas gets N_s H_s, and loses it in collisions.
+  const double power = 100.0 * item(driven, "species", "small", "bulk_drive_power") +
+                       50.0 * item(driven, "species", "large", "bulk_drive_power");
+  CHECK(power ==
+        doctest::Approx(0.09 / 0.1 * (100.0 * (1.0 - 1.0 / 300.0) + 50.0 * (1.0 - 4.0 / 300.0))));
+}
+
+TEST_CASE("Theory: equal species have the values of one species") {
+  Scene scene = mixture(0.8);
+  scene.species[1].diameter = 1.0;
+  Scene one = scene;
+  one.species.clear();
+  const json two = theory_json(scene), alone = theory_json(one);
+  for (const char* key : {"haff_rate", "compressibility"}) {
+    CAPTURE(key);
+    CHECK(two.at(key).get<double>() == doctest::Approx(alone.at(key).get<double>()).epsilon(1e-9));
+  }
+  scene.bulk_drive = one.bulk_drive = BulkDrive{.interval = 0.1, .kick_speed = 0.3};
+  CHECK(theory_json(scene).at("temperature_driven").get<double>() ==
+        doctest::Approx(theory_json(one).at("temperature_driven").get<double>()).epsilon(1e-9));
+  CHECK(collision_rate(scene, 1.7) == doctest::Approx(collision_rate(one, 1.7)).epsilon(1e-12));
+}
+
+TEST_CASE("Theory: mixtures have none of the theory of particles that are alike") {
+  Scene scene = mixture(0.9);
+  CHECK(haff_rate(scene) == std::nullopt);
+  CHECK(cools_freely(scene));
+  scene.particles.restitution = 1.0;
+  CHECK_FALSE(cools_freely(scene));
+  scene.pairs = {{{"small", "large"}, 0.5}};
+  CHECK(cools_freely(scene));
+  scene.walls[kLeft] = scene.walls[kRight] = Wall{.kind = WallKind::Driven, .drive_speed = 1.0};
+  CHECK_FALSE(vibrated_gas(scene));
+  const json walled = theory_json(scene);
+  CHECK(walled.size() == 1);
+  CHECK(walled.at("pairs").size() == 3);
+  scene.walls = {};
+  scene.walls[kBottom] = scene.walls[kTop] = Wall{.kind = WallKind::Thermal};
+  scene.gravity = Vec2(0.0, -1.0);
+  scene.pairs.clear();
+  CHECK_FALSE(atmosphere(scene));
 }
 
 }  // namespace clatter
