@@ -75,7 +75,8 @@ double cells_memory(const Measure& measure, bool spins, std::size_t species) {
     // The current and the closed window.
     constexpr std::size_t kBookings = (D + 1) * sizeof(Booked<D>) + sizeof(Conserved<D>);
     constexpr std::size_t kResidual = 4 * (D + 2) * sizeof(double);
-    bytes += cells * static_cast<double>(2 * kBookings + kResidual);
+    const std::size_t numbers = 2 * (D + 1) * sizeof(double) * species;
+    bytes += cells * static_cast<double>(2 * kBookings + kResidual + numbers);
   }
   return bytes;
 }

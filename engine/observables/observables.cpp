@@ -254,7 +254,7 @@ double observables_memory(const Scene& scene) {
         bytes += history(measure.velocity_autocorrelation, 1.0 + dimension * groups);
         break;
       case ObservableKind::StructureFactor:
-        bytes += sums(measure.structure_factor.bins + 1.0, 0.0) + sample;
+        bytes += sums(pairs * measure.structure_factor.bins + 1.0, 0.0) + sample;
         break;
       case ObservableKind::Clusters:
         bytes += sums(CountBins::kCount + 5.0, 5.0) + 2.0 * sample;

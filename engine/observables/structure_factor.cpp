@@ -42,7 +42,7 @@ Vec<D> StructureFactor<D>::unit() const {
 template <int D>
 StructureFactor<D>::StructureFactor(const Simulation<D>& simulation,
                                     const StructureFactorSettings& settings)
-    : simulation_(simulation) {
+    : simulation_(simulation), groups_(simulation) {
   const double width = settings.range / settings.bins;
   for (int bin = 0; bin < settings.bins; ++bin) {
     add_shell(bin * width, (bin + 1) * width, settings.vectors);
@@ -82,14 +82,13 @@ void StructureFactor<D>::add_shell(double low, double high, int most) {
   shells_.push_back(std::move(shell));
 }
 
-// The factors exp(i n u x) of all n and of a block of particles come from products. The block stays
-// in the cache.
+// The sum of exp(-i k.r) for each wave vector. The factors exp(i n u x) of all n and of a block of
+// particles come from products. The block stays in the cache.
 template <int D>
-void StructureFactor<D>::sample() {
+std::vector<std::complex<double>> StructureFactor<D>::density_of(
+    const std::vector<Vec<D>>& positions) const {
   constexpr std::size_t kBlock = 64;
   using Factor = std::complex<double>;
-  const std::vector<Vec<D>> positions = simulation_.positions();
-  if (positions.empty()) return;
   const Vec<D> shortest = unit();
   std::array<std::vector<Factor>, D> factors;  // [most + 1][block]
   for (int axis = 0; axis < D; ++axis) {
@@ -132,14 +131,46 @@ void StructureFactor<D>::sample() {
       }
     }
   }
+  return density;
+}
+
+// Adds the products of two densities to the shells from a place on, times a factor.
+template <int D>
+void StructureFactor<D>::add_products(const std::vector<std::complex<double>>& first,
+                                      const std::vector<std::complex<double>>& second,
+                                      double factor, std::size_t place) {
   std::size_t index = 0;
-  const double per_particle = 1.0 / static_cast<double>(positions.size());
   for (std::size_t shell = 0; shell < shells_.size(); ++shell) {
-    for (std::size_t k = 0; k < shells_[shell].vectors.size(); ++k) {
-      sums_.values[1 + shell] += per_particle * std::norm(density[index++]);
+    for (std::size_t k = 0; k < shells_[shell].vectors.size(); ++k, ++index) {
+      const std::complex<double>&a = first[index], &b = second[index];
+      sums_.values[place + shell] += factor * (a.real() * b.real() + a.imag() * b.imag());
     }
   }
+}
+
+template <int D>
+void StructureFactor<D>::sample() {
+  const std::vector<Vec<D>> positions = simulation_.positions();
+  if (positions.empty()) return;
+  const double per_particle = 1.0 / static_cast<double>(positions.size());
   sums_.values[0] += 1.0;
+  const std::vector<std::complex<double>> density = density_of(positions);
+  add_products(density, density, per_particle, 1);
+  if (groups_.count() == 1) return;
+  std::vector<std::vector<std::complex<double>>> densities;
+  for (std::size_t group = 1; group < groups_.count(); ++group) {
+    std::vector<Vec<D>> own;
+    groups_.for_each(group, [&](std::size_t i) { own.push_back(positions[i]); });
+    densities.push_back(density_of(own));
+  }
+  std::size_t place = 1;
+  for (std::size_t t = 0; t < densities.size(); ++t) {
+    for (std::size_t s = 0; s <= t; ++s) {
+      place += shells_.size();
+      const double factor = std::sqrt(groups_.per_particle(1 + s) * groups_.per_particle(1 + t));
+      add_products(densities[s], densities[t], factor, place);
+    }
+  }
 }
 
 template <int D>
@@ -150,6 +181,18 @@ ObservableResult StructureFactor<D>::result(const ObservableParts& parts) const 
     table.columns[0].values.push_back(shells_[shell].wave_number);
     table.columns[1].values.push_back(vectors);
     append(table.columns[2], ratio_of(parts.coarse, 1 + shell, 0, vectors));
+  }
+  std::size_t place = 1;
+  for (std::size_t t = 1; t < groups_.count(); ++t) {
+    for (std::size_t s = 1; s <= t; ++s) {
+      place += shells_.size();
+      const std::string name = 'S' + groups_.suffix(s) + '+' + groups_.suffix(t).substr(1);
+      TableColumn& column = table.columns.emplace_back(TableColumn{name, "1", {}});
+      for (std::size_t shell = 0; shell < shells_.size(); ++shell) {
+        const auto vectors = static_cast<double>(shells_[shell].vectors.size());
+        append(column, ratio_of(parts.coarse, place + shell, 0, vectors));
+      }
+    }
   }
   return {{std::move(table)}, {}};
 }

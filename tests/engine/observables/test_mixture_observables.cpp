@@ -337,3 +337,35 @@ TEST_CASE("Mixture observables: velocities of each species") {
     CHECK(std::fabs(found.mean - (name[0] == 't' ? 1.0 : 0.0)) < 5.0 * found.standard_error);
   }
 }
+
+// Of one sample: S of all particles is the sum over the pairs of species, and the densities of two
+// disks are known.
+TEST_CASE("Mixture observables: structure factors of each two species") {
+  Model<2> model = elastic_mixture<2>();
+  State<2> state{{{1.3, 2.0}, {4.0, 7.1}, {6.4, 3.2}}, std::vector<Vec2>(3, Vec2::Zero())};
+  state.grains.assign(3, {.radius = 0.3});
+  state.grains[1].species = 1;
+  state.grains[2].species = 1;
+  Measure measure;
+  measure.structure_factor = {.interval = 1.0, .range = 3.0, .bins = 4, .vectors = 1};
+  const ResultTable table = table_of(
+      measured_of(model, state, ObservableKind::StructureFactor, 1.0, measure), "structure_factor");
+  REQUIRE(table.columns.size() == 6);  // species 2 has no particles
+  const auto at = [&](const char* name, std::size_t k) { return column_of(table, name).values[k]; };
+  for (std::size_t k = 0; k < column_of(table, "k").values.size(); ++k) {
+    CHECK(at("S_0+0", k) == doctest::Approx(1.0).epsilon(1e-12));
+    const double all =
+        (at("S_0+0", k) + 2.0 * at("S_1+1", k)) / 3.0 + 2.0 * std::sqrt(2.0) / 3.0 * at("S_0+1", k);
+    CHECK(at("S", k) == doctest::Approx(all).epsilon(1e-10));
+  }
+  // One of the two shortest wave vectors.
+  const double step = 2.0 * std::numbers::pi / 9.0;
+  const std::size_t first = 0;
+  REQUIRE(at("k", first) == doctest::Approx(step).epsilon(1e-12));
+  const auto own = [&](int axis) {
+    const double apart = state.positions[1][axis] - state.positions[2][axis];
+    return 1.0 + std::cos(step * apart);
+  };
+  const double found = at("S_1+1", first);
+  CHECK(std::min(std::fabs(found - own(0)), std::fabs(found - own(1))) < 1e-10);
+}
