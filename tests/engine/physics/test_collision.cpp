@@ -8,6 +8,7 @@
 
 #include "engine/physics/collision.h"
 #include "engine/physics/random.h"
+#include "tests/engine/support/models.h"
 #include "tests/support/contact_laws.h"
 
 using namespace clatter;
@@ -78,7 +79,6 @@ RoughPair<D> random_pair(std::uint32_t number) {
 }
 
 constexpr std::uint32_t kPairs = 100000;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <class Vector>
 bool same_bits(const Vector& a, const Vector& b) {
