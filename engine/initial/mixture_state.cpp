@@ -30,12 +30,14 @@ static double row_height(const std::vector<Vec<D>>& places) {
   return std::max(highest, 1e-3) / rows;
 }
 
-// The order of places along rows of a height, and of rows from bottom to top.
+// The order of particles by species, then from bottom to top by rows of a height, then along rows.
 template <int D>
-static std::vector<std::uint32_t> order_by_rows(const std::vector<Vec<D>>& places, double height) {
+static std::vector<std::uint32_t> order_of(const std::vector<Vec<D>>& places,
+                                           const std::vector<Grain>& grains, double height) {
   std::vector<std::uint32_t> order(places.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, [&](std::uint32_t a, std::uint32_t b) {
+    if (grains[a].species != grains[b].species) return grains[a].species < grains[b].species;
     for (int k = D - 1; k > 0; --k) {
       const double row_a = std::floor(places[a][k] / height);
       const double row_b = std::floor(places[b][k] / height);
@@ -51,7 +53,7 @@ State<D> state_at_places(const std::vector<Vec<D>>& places, const std::vector<Gr
                          double temperature, std::uint64_t seed, const StopRequest& stop) {
   State<D> state;
   std::vector<double> masses;
-  for (const std::uint32_t i : order_by_rows<D>(places, row_height<D>(places))) {
+  for (const std::uint32_t i : order_of<D>(places, grains, row_height<D>(places))) {
     state.positions.push_back(places[i]);
     state.grains.push_back(grains[i]);
     masses.push_back(grains[i].mass);

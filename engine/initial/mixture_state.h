@@ -16,7 +16,8 @@ std::vector<Grain> grains_of(const Scene& scene);
 
 /// The state of grains at places without overlaps, as many. All species have the temperature:
 /// velocities are Gaussian of variance T/m, the total momentum is 0, and (1/DN) sum m v^2 is
-/// exactly T. Near particles have near numbers. Throws Interrupted.
+/// exactly T. Species follow each other in the numbers of particles, and near particles of a
+/// species have near numbers. Throws Interrupted.
 template <int D>
 State<D> state_at_places(const std::vector<Vec<D>>& places, const std::vector<Grain>& grains,
                          double temperature, std::uint64_t seed, const StopRequest& stop = {});
