@@ -50,7 +50,7 @@ void add_measure_command(CLI::App& program, int& exit_code) {
               "--trajectory", options->trajectory,
               "File for the states of all particles, at the interval --every. The extension "
               "selects the format: .xyz (extended XYZ), .lammpstrj (LAMMPS), .csv, .gsd "
-              "(HOOMD-blue) or .h5md (H5MD).")
+              "(HOOMD-blue), .h5md (H5MD) or .vtp (ParaView).")
           ->check(named_file())
           ->type_name("FILE");
   CLI::Option* every = command

@@ -10,6 +10,7 @@
 #include "app/import/frame_reader.h"
 #include "app/results/three_axes.h"
 #include "app/results/trajectory_file.h"
+#include "app/results/vtp_trajectory.h"
 #include "app/runs/picture_scene.h"
 #include "app/system/exit_code.h"
 #include "app/system/missing_newline.h"
@@ -166,21 +167,24 @@ template <int D>
 void write_frame(const std::filesystem::path& path, TrajectoryFormat format,
                  const ParticleFrame& frame) {
   const Model<D> model = model_of<D>(frame);
+  const TrajectoryParticles particles{.count = frame.positions.size(),
+                                      .spins = !frame.spins.empty()};
   TrajectoryFrame<D> written{.number = frame.number,
                              .time = frame.time,
                              .model = model,
+                             .particles = particles,
                              .state = state_of<D>(frame),
                              .images = {}};
   for (const ParticleFrame::Vector& image : frame.images) {
     written.images.push_back(Eigen::Map<const Vec<D>>(image.data()).template cast<int>());
   }
+  if (format == TrajectoryFormat::Vtp) return write_file(path, vtp_text(written));
   const std::filesystem::path target = target_of(path);
   NewFile made = new_file_beside(target);
   if (!made.file) throw RunError("cannot write " + path.string() + ": " + std::strerror(errno));
   made.file.close();
   try {
-    const auto file = open_trajectory<D>(made.path, format, model, frame.positions.size(),
-                                         !frame.spins.empty(), 0);
+    const auto file = open_trajectory<D>(made.path, format, model, particles, 0);
     file->add(written);
     file->finish();
     rename_synced(made.path, target);

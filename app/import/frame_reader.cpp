@@ -33,7 +33,8 @@ bool is_data_file(const std::filesystem::path& path) {
 }
 
 bool is_binary(TrajectoryFormat format) {
-  return format == TrajectoryFormat::Gsd || format == TrajectoryFormat::H5md;
+  return format == TrajectoryFormat::Gsd || format == TrajectoryFormat::H5md ||
+         format == TrajectoryFormat::Vtp;
 }
 
 void require_bounded_images(const ParticleFrame& frame, const std::filesystem::path& path) {
@@ -165,6 +166,9 @@ ParticleFrame read_frame(const std::filesystem::path& path, const FrameChoice& c
         return read_gsd_frame(path, choice);
       case TrajectoryFormat::H5md:
         return read_h5md_frame(path, choice);
+      case TrajectoryFormat::Vtp:
+        throw UserError({flag, 0, 0}, path.string() + " is a file of VTK, which is only written",
+                        "give a trajectory in another format");
     }
     return ParticleFrame();
   };

@@ -120,6 +120,8 @@ void prepare_outputs(const MeasureOptions& options, const Scene& scene,
                                  {"--save-state", options.save_state}};
   if (!options.events.empty() && records_path(options.events) != options.events) {
     outputs.push_back({"--events", records_path(options.events)});
+  } else if (!options.events.empty() && !scene.species.empty()) {
+    outputs.push_back({"--events", particles_path(options.events)});
   }
   if (!options.trajectory.empty()) {
     const TrajectoryFormat format = trajectory_format(options.trajectory, "--trajectory");

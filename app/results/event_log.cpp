@@ -131,6 +131,18 @@ std::string csv_lines(const std::vector<double>& records, std::size_t size) {
   return fmt::to_string(text);
 }
 
+std::string csv_text(const LoggedParticles& particles) {
+  std::string text = std::string("# units, ") + kUnits +
+                     "; particle: 1, species: 1, diameter: a, mass: m\n"
+                     "particle,species,diameter,mass\n";
+  for (std::size_t i = 0; i < particles.grains.size(); ++i) {
+    const Grain& grain = particles.grains[i];
+    text += fmt::format("{},{},{},{}\n", i, particles.species[grain.species], 2.0 * grain.radius,
+                        grain.mass);
+  }
+  return text;
+}
+
 namespace {
 
 constexpr hsize_t kEventChunk = 16384;  // events
@@ -190,9 +202,16 @@ void fill(const H5::H5File& file, const std::filesystem::path& records_path,
 }  // namespace
 
 void write_event_file(const std::filesystem::path& path, const std::filesystem::path& records,
-                      const std::vector<EventQuantity>& quantities) {
-  write_large_hdf5(path, std::filesystem::file_size(records),
-                   [&](const H5::H5File& file) { fill(file, records, quantities); });
+                      const std::vector<EventQuantity>& quantities,
+                      const LoggedParticles& particles) {
+  const std::uint64_t size =
+      std::filesystem::file_size(records) + particles.grains.size() * 3 * sizeof(double);
+  write_large_hdf5(path, size, [&](const H5::H5File& file) {
+    if (!particles.species.empty()) {
+      write_grains(file.createGroup("particles"), particles.species, particles.grains, "m", "a");
+    }
+    fill(file, records, quantities);
+  });
 }
 
 template void append_record<2>(std::vector<double>&, const Model<2>&, double,

@@ -7,6 +7,7 @@
 
 #include "engine/dynamics/observer.h"
 #include "engine/laws/model.h"
+#include "engine/physics/grain.h"
 
 namespace clatter {
 
@@ -48,9 +49,19 @@ std::string csv_header(const std::vector<EventQuantity>& quantities);
 /// Lines of a CSV. Their numbers read back to exactly the same bits.
 std::string csv_lines(const std::vector<double>& records, std::size_t size);
 
-/// Turns a file of records, as bytes of doubles, into compressed HDF5. The file `path` is replaced
-/// as a whole. Throws RunError.
+/// What the particles of a mixture are. A log has it once.
+struct LoggedParticles {
+  std::vector<std::string> species = {};  ///< names; empty: all particles are alike
+  std::vector<Grain> grains = {};         ///< [N] of a mixture, otherwise empty
+};
+
+/// A table of the particles of a mixture: number, species, diameter and mass.
+std::string csv_text(const LoggedParticles& particles);
+
+/// Turns a file of records, as bytes of doubles, into compressed HDF5, with the group particles of
+/// a mixture. The file `path` is replaced as a whole. Throws RunError.
 void write_event_file(const std::filesystem::path& path, const std::filesystem::path& records,
-                      const std::vector<EventQuantity>& quantities);
+                      const std::vector<EventQuantity>& quantities,
+                      const LoggedParticles& particles = {});
 
 }  // namespace clatter

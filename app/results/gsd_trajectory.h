@@ -11,7 +11,7 @@ template <int D>
 class GsdTrajectory final : public TrajectoryFile<D> {
  public:
   /// See open_trajectory().
-  GsdTrajectory(const std::filesystem::path& path, std::size_t particles, bool spins,
+  GsdTrajectory(const std::filesystem::path& path, TrajectoryParticles particles,
                 std::uint64_t bytes);
 
   void add(const TrajectoryFrame<D>& frame) override;
@@ -20,7 +20,7 @@ class GsdTrajectory final : public TrajectoryFile<D> {
   void finish() override { file_.close(); }
 
  private:
-  bool spins_;
+  TrajectoryParticles particles_;
   GsdFile file_;
 };
 

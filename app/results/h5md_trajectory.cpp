@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/results/growing_dataset.h"
@@ -107,12 +108,12 @@ H5::Group write_box(const H5::Group& particles, const Model<D>& model) {
 
 template <int D>
 H5mdTrajectory<D>::H5mdTrajectory(const std::filesystem::path& path, const Model<D>& model,
-                                  std::size_t particles, bool spins, std::uint64_t bytes)
-    : path_(path), model_(model), particles_(particles), spins_(spins) {
+                                  TrajectoryParticles particles, std::uint64_t bytes)
+    : path_(path), model_(model), particles_(std::move(particles)) {
   std::error_code ignored;
   if (bytes > 0 && !std::filesystem::exists(frames_path(path, TrajectoryFormat::H5md), ignored) &&
       std::filesystem::exists(path, ignored)) {
-    restore_records(path, particles, spins);
+    restore_records(path, particles_.count, particles_.spins);
   }
   records_.emplace(frames_path(path, TrajectoryFormat::H5md), bytes);
 }
@@ -128,7 +129,7 @@ void H5mdTrajectory<D>::add(const TrajectoryFrame<D>& frame) {
   add_vectors(frame.state.positions);
   add_vectors(frame.state.velocities);
   add_vectors(frame.images);
-  if (spins_) add_vectors(frame.state.spins);
+  if (particles_.spins) add_vectors(frame.state.spins);
   records_->append(raw_bytes(record));
 }
 
@@ -142,37 +143,43 @@ void H5mdTrajectory<D>::finish() {
     write_head(file);
     const H5::Group all = file.createGroup("particles").createGroup("all");
     const H5::Group box = write_box(all, model_);
-    write_dataset(all, "mass", "", std::vector<double>(particles_, 1.0));
-    write_dataset(all, "diameter", "", std::vector<double>(particles_, model_.diameter));
+    const std::size_t particles = particles_.count;
+    const bool spins = particles_.spins;
+    if (particles_.is_mixture()) {
+      write_grains(all, particles_.species, particles_.grains, "", "");
+    } else {
+      write_dataset(all, "mass", "", std::vector<double>(particles, 1.0));
+      write_dataset(all, "diameter", "", std::vector<double>(particles, model_.diameter));
+    }
 
-    const hsize_t in_chunk = std::clamp<hsize_t>(particles_, 1, kH5mdChunk);
+    const hsize_t in_chunk = std::clamp<hsize_t>(particles, 1, kH5mdChunk);
     const Hdf5Shape numbers = {kH5mdChunk}, vectors = {kH5mdChunk / in_chunk, in_chunk, 3};
     const H5::DataType real = H5::PredType::IEEE_F64LE, whole = H5::PredType::STD_I64LE;
     const H5::Group edges = box.createGroup("edges");
     GrowingDataset step(edges, "step", whole, {}, numbers), time(edges, "time", real, {}, numbers);
     GrowingDataset edge(edges, "value", real, {3, 3}, {kH5mdChunk / 9, 3, 3});
     std::vector<GrowingDataset> values;
-    for (const std::string& name : h5md_quantities(spins_)) {
+    for (const std::string& name : h5md_quantities(spins)) {
       const H5::Group element = all.createGroup(name);
       // Elements of the same frames share their steps and times.
       for (const char* shared : {"step", "time"}) {
         all.link(H5L_TYPE_HARD, std::string("box/edges/") + shared, name + '/' + shared);
       }
-      values.emplace_back(element, "value", name == "image" ? whole : real,
-                          Hdf5Shape{particles_, 3}, vectors);
+      values.emplace_back(element, "value", name == "image" ? whole : real, Hdf5Shape{particles, 3},
+                          vectors);
     }
 
     const std::array<double, 3> box_size = extents(model_);
     std::array<double, 9> diagonal = {};
     for (std::size_t axis = 0; axis < 3; ++axis) diagonal[4 * axis] = box_size[axis];
-    std::vector<double> record(h5md_record_size(particles_, spins_));
+    std::vector<double> record(h5md_record_size(particles, spins));
     const auto size = static_cast<std::streamsize>(record.size() * sizeof(double));
     while (records.read(reinterpret_cast<char*>(record.data()), size)) {
       step.append(&record[0], 1);
       time.append(&record[1], 1);
       edge.append(diagonal.data(), 1);
       for (std::size_t k = 0; k < values.size(); ++k) {
-        values[k].append(record.data() + kRecordHead + k * 3 * particles_, 1);
+        values[k].append(record.data() + kRecordHead + k * 3 * particles, 1);
       }
     }
   });

@@ -13,8 +13,8 @@ template <int D>
 class H5mdTrajectory final : public TrajectoryFile<D> {
  public:
   /// See open_trajectory(). A complete file is continued, too.
-  H5mdTrajectory(const std::filesystem::path& path, const Model<D>& model, std::size_t particles,
-                 bool spins, std::uint64_t bytes);
+  H5mdTrajectory(const std::filesystem::path& path, const Model<D>& model,
+                 TrajectoryParticles particles, std::uint64_t bytes);
 
   void add(const TrajectoryFrame<D>& frame) override;
   std::uint64_t bytes() const override { return records_->bytes(); }
@@ -24,8 +24,7 @@ class H5mdTrajectory final : public TrajectoryFile<D> {
  private:
   std::filesystem::path path_;
   Model<D> model_;
-  std::size_t particles_;
-  bool spins_;
+  TrajectoryParticles particles_;
   std::optional<GrowingFile> records_;
 };
 

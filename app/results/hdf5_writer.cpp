@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <system_error>
 
@@ -51,6 +52,28 @@ void write_dataset(const H5::Group& group, const std::string& name, const std::s
 void write_dataset(const H5::Group& group, const std::string& name, const std::string& unit,
                    const std::vector<double>& values) {
   write_dataset(group, name, unit, values, {values.size()});
+}
+
+void write_grains(const H5::Group& group, const std::vector<std::string>& names,
+                  const std::vector<Grain>& grains, const std::string& unit_of_mass,
+                  const std::string& unit_of_length) {
+  std::vector<double> masses, diameters;
+  std::vector<std::int32_t> species;
+  for (const Grain& grain : grains) {
+    masses.push_back(grain.mass);
+    diameters.push_back(2.0 * grain.radius);
+    species.push_back(static_cast<std::int32_t>(grain.species));
+  }
+  write_dataset(group, "mass", unit_of_mass, masses);
+  write_dataset(group, "diameter", unit_of_length, diameters);
+  H5::EnumType type(H5::PredType::NATIVE_INT32);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    auto number = static_cast<std::int32_t>(k);
+    type.insert(names[k], &number);
+  }
+  const H5::DataSet dataset =
+      group.createDataSet("species", type, space_of({species.size()}), dataset_properties());
+  if (!species.empty()) dataset.write(species.data(), type);
 }
 
 // Files in the oldest format of each object: all readers know it, and groups have no time of

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/physics/grain.h"
+
 namespace clatter {
 
 using Hdf5Shape = std::vector<hsize_t>;
@@ -34,6 +36,13 @@ void write_dataset(const H5::Group& group, const std::string& name, const std::s
 /// Writes a list of numbers.
 void write_dataset(const H5::Group& group, const std::string& name, const std::string& unit,
                    const std::vector<double>& values);
+
+/// Writes what the particles of a mixture are, once: the datasets mass, diameter and species, a
+/// number for each particle. That of the species is an enumeration of `names`, from 0. An empty
+/// unit is not written.
+void write_grains(const H5::Group& group, const std::vector<std::string>& names,
+                  const std::vector<Grain>& grains, const std::string& unit_of_mass,
+                  const std::string& unit_of_length);
 
 /// Writes an HDF5 file, completely or not at all: `fill` fills it in memory. Throws RunError.
 void write_hdf5(const std::filesystem::path& path,

@@ -1,6 +1,7 @@
 #include "app/results/trajectory.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <iterator>
@@ -27,6 +28,18 @@ void add_space(TextBuffer& text, const std::array<T, 3>& numbers) {
   add_numbers<T>(text, numbers, ' ');
 }
 
+// What a particle is.
+template <int D>
+Grain grain_of(const TrajectoryFrame<D>& frame, std::size_t particle) {
+  return frame.particles.is_mixture() ? frame.particles.grains[particle] : frame.model.grain();
+}
+
+// The key of extended XYZ with the names of the types; empty if all particles are alike.
+std::string type_names(const TrajectoryParticles& particles) {
+  if (!particles.is_mixture()) return "";
+  return fmt::format(" type_names=\"{}\"", fmt::join(particles.species, " "));
+}
+
 template <int D>
 void add_xyz(TextBuffer& text, const TrajectoryFrame<D>& frame) {
   const Model<D>& model = frame.model;
@@ -36,17 +49,22 @@ void add_xyz(TextBuffer& text, const TrajectoryFrame<D>& frame) {
   // Disks are in the middle of their layer.
   const std::string origin = D == 2 ? fmt::format(" Origin=\"0 0 {}\"", -0.5 * lz) : "";
   fmt::format_to(std::back_inserter(text),
-                 "{}\nLattice=\"{} 0 0 0 {} 0 0 0 {}\"{} pbc=\"{} {} {}\" Time={} "
-                 "Properties=species:S:1:pos:R:3:velo:R:3{}:map_shift:I:3:radius:R:1\n",
+                 "{}\nLattice=\"{} 0 0 0 {} 0 0 0 {}\"{} pbc=\"{} {} {}\" Time={}{} "
+                 "Properties=species:S:1:pos:R:3:velo:R:3{}:map_shift:I:3:radius:R:1{}\n",
                  frame.state.positions.size(), lx, ly, lz, origin, pbc(0), pbc(1), pbc(2),
-                 frame.time, spins ? ":omega:R:3" : "");
+                 frame.time, type_names(frame.particles), spins ? ":omega:R:3" : "",
+                 frame.particles.is_mixture() ? ":type:I:1:masses:R:1" : "");
   for (std::size_t i = 0; i < frame.state.positions.size(); ++i) {
     text.push_back('X');
     add_space(text, in_space(frame.state.positions[i]));
     add_space(text, in_space(frame.state.velocities[i]));
     if (spins) add_space(text, in_space(frame.state.spins[i]));
     add_space(text, in_space(frame.images[i]));
-    fmt::format_to(std::back_inserter(text), " {}\n", 0.5 * model.diameter);
+    const Grain grain = grain_of(frame, i);
+    const auto out = std::back_inserter(text);
+    fmt::format_to(out, " {}", grain.radius);
+    if (frame.particles.is_mixture()) fmt::format_to(out, " {} {}", grain.species + 1, grain.mass);
+    text.push_back('\n');
   }
 }
 
@@ -63,10 +81,13 @@ void add_dump(TextBuffer& text, const TrajectoryFrame<D>& frame) {
   }
   const double depth = D == 2 ? 0.5 * box[2] : 0.0;  // disks are in the middle of their layer
   fmt::format_to(out, "\n0 {}\n0 {}\n{} {}\n", box[0], box[1], 0.0 - depth, box[2] - depth);
-  fmt::format_to(out, "ITEM: ATOMS id type radius x y z ix iy iz vx vy vz{}\n",
-                 spins ? " omegax omegay omegaz" : "");
+  const bool mixture = frame.particles.is_mixture();
+  fmt::format_to(out, "ITEM: ATOMS id type radius{} x y z ix iy iz vx vy vz{}\n",
+                 mixture ? " mass" : "", spins ? " omegax omegay omegaz" : "");
   for (std::size_t i = 0; i < frame.state.positions.size(); ++i) {
-    fmt::format_to(out, "{} 1 {}", i + 1, 0.5 * model.diameter);
+    const Grain grain = grain_of(frame, i);
+    fmt::format_to(out, "{} {} {}", i + 1, grain.species + 1, grain.radius);
+    if (mixture) fmt::format_to(out, " {}", grain.mass);
     add_space(text, in_space(frame.state.positions[i]));
     add_space(text, in_space(frame.images[i]));
     add_space(text, in_space(frame.state.velocities[i]));
@@ -95,6 +116,11 @@ void add_csv(TextBuffer& text, const TrajectoryFrame<D>& frame) {
     add(frame.images[i]);
     add(frame.state.velocities[i]);
     if (spins) add(frame.state.spins[i]);
+    if (frame.particles.is_mixture()) {
+      const Grain& grain = frame.particles.grains[i];
+      fmt::format_to(std::back_inserter(text), ",{},{},{}", 2.0 * grain.radius, grain.mass,
+                     frame.particles.species[grain.species]);
+    }
     text.push_back('\n');
   }
 }
@@ -114,6 +140,7 @@ std::optional<TrajectoryFormat> find_trajectory_format(const std::filesystem::pa
   if (extension == ".csv") return TrajectoryFormat::Csv;
   if (extension == ".gsd") return TrajectoryFormat::Gsd;
   if (extension == ".h5md") return TrajectoryFormat::H5md;
+  if (extension == ".vtp") return TrajectoryFormat::Vtp;
   return std::nullopt;
 }
 
@@ -121,19 +148,20 @@ TrajectoryFormat trajectory_format(const std::filesystem::path& file, const char
   require_regular(file, flag);
   if (const auto format = find_trajectory_format(file)) return *format;
   throw UserError({flag, 0, 0}, file.string() + " has no extension of a trajectory",
-                  "give a name that ends in .xyz, .lammpstrj, .csv, .gsd or .h5md");
+                  "give a name that ends in .xyz, .lammpstrj, .csv, .gsd, .h5md or .vtp");
 }
 
 template <int D>
-std::string header_text(TrajectoryFormat format, bool spins) {
+std::string header_text(TrajectoryFormat format, const TrajectoryParticles& particles) {
   if (format != TrajectoryFormat::Csv) return "";
   const std::string spin = D == 2 ? ",omega" : axis_names("omega_", 3);
   return "time,particle" + axis_names("", D) + axis_names("image_", D) + axis_names("v", D) +
-         (spins ? spin : "") + '\n';
+         (particles.spins ? spin : "") + (particles.is_mixture() ? ",diameter,mass,species" : "") +
+         '\n';
 }
 
-template std::string header_text<2>(TrajectoryFormat, bool);
-template std::string header_text<3>(TrajectoryFormat, bool);
+template std::string header_text<2>(TrajectoryFormat, const TrajectoryParticles&);
+template std::string header_text<3>(TrajectoryFormat, const TrajectoryParticles&);
 
 template <int D>
 std::string frame_text(const TrajectoryFrame<D>& frame, TrajectoryFormat format) {
@@ -150,6 +178,7 @@ std::string frame_text(const TrajectoryFrame<D>& frame, TrajectoryFormat format)
       break;
     case TrajectoryFormat::Gsd:
     case TrajectoryFormat::H5md:
+    case TrajectoryFormat::Vtp:
       break;
   }
   return fmt::to_string(text);

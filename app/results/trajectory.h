@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/laws/model.h"
+#include "engine/physics/grain.h"
 #include "engine/physics/state.h"
 
 namespace clatter {
@@ -16,7 +17,8 @@ enum class TrajectoryFormat {
   LammpsDump,  ///< text dump of LAMMPS: .lammpstrj and .dump
   Csv,         ///< one line per particle and frame: .csv
   Gsd,         ///< binary file of HOOMD-blue: .gsd
-  H5md         ///< HDF5 file in the H5MD structure: .h5md
+  H5md,        ///< HDF5 file in the H5MD structure: .h5md
+  Vtp          ///< VTK PolyData, one file per frame, and a list of them: .vtp
 };
 
 /// Throws UserError that names `flag` for a device or a pipe.
@@ -29,22 +31,35 @@ std::optional<TrajectoryFormat> find_trajectory_format(const std::filesystem::pa
 /// a device or a pipe, which cannot be continued.
 TrajectoryFormat trajectory_format(const std::filesystem::path& file, const char* flag);
 
+/// The particles of a trajectory, the same in all frames.
+struct TrajectoryParticles {
+  std::size_t count = 0;
+  bool spins = false;                     ///< whether frames have angular velocities
+  std::vector<std::string> species = {};  ///< names of the species; empty: all particles are alike
+  std::vector<Grain> grains = {};         ///< [N] of a mixture, otherwise empty
+
+  /// Whether the particles have species.
+  bool is_mixture() const { return !species.empty(); }
+};
+
 /// The exact state of a gas at one time.
 template <int D>
 struct TrajectoryFrame {
   long number = 0;    ///< from 0
   double time = 0.0;  ///< simulation time
   const Model<D>& model;
+  const TrajectoryParticles& particles;
   State<D> state;
   std::vector<IntVec<D>> images;  ///< [N] periodic images, see PeriodicImages
 };
 
-/// The text before the first frame of a text format. `spins`: whether the particles have spins.
+/// The text before the first frame of a text format.
 template <int D>
-std::string header_text(TrajectoryFormat format, bool spins);
+std::string header_text(TrajectoryFormat format, const TrajectoryParticles& particles);
 
 /// The text of a frame in a text format, with spins unless the state has none. Formats for three
-/// dimensions have disks at z = 0, with angular velocities along z.
+/// dimensions have disks at z = 0, with angular velocities along z. Types of LAMMPS and extended
+/// XYZ are the numbers of species, from 1.
 template <int D>
 std::string frame_text(const TrajectoryFrame<D>& frame, TrajectoryFormat format);
 

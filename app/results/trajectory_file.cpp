@@ -2,6 +2,7 @@
 
 #include "app/results/gsd_trajectory.h"
 #include "app/results/h5md_trajectory.h"
+#include "app/results/vtp_trajectory.h"
 #include "engine/system/growing_file.h"
 
 namespace clatter {
@@ -11,10 +12,10 @@ namespace {
 template <int D>
 class TextTrajectory final : public TrajectoryFile<D> {
  public:
-  TextTrajectory(const std::filesystem::path& path, TrajectoryFormat format, bool spins,
-                 std::uint64_t bytes)
+  TextTrajectory(const std::filesystem::path& path, TrajectoryFormat format,
+                 const TrajectoryParticles& particles, std::uint64_t bytes)
       : format_(format), file_(path, bytes) {
-    if (bytes == 0) file_.append(header_text<D>(format, spins));
+    if (bytes == 0) file_.append(header_text<D>(format, particles));
   }
 
   void add(const TrajectoryFrame<D>& frame) override { file_.append(frame_text(frame, format_)); }
@@ -31,29 +32,35 @@ class TextTrajectory final : public TrajectoryFile<D> {
 
 std::filesystem::path frames_path(const std::filesystem::path& trajectory,
                                   TrajectoryFormat format) {
-  if (format != TrajectoryFormat::H5md) return trajectory;
-  return trajectory.string() + ".records";
+  if (format == TrajectoryFormat::H5md) return trajectory.string() + ".records";
+  if (format == TrajectoryFormat::Vtp) return trajectory.string() + ".series";
+  return trajectory;
 }
 
 template <int D>
 std::unique_ptr<TrajectoryFile<D>> open_trajectory(const std::filesystem::path& path,
                                                    TrajectoryFormat format, const Model<D>& model,
-                                                   std::size_t particles, bool spins,
+                                                   const TrajectoryParticles& particles,
                                                    std::uint64_t bytes) {
   if (format == TrajectoryFormat::Gsd) {
-    return std::make_unique<GsdTrajectory<D>>(path, particles, spins, bytes);
+    return std::make_unique<GsdTrajectory<D>>(path, particles, bytes);
   }
   if (format == TrajectoryFormat::H5md) {
-    return std::make_unique<H5mdTrajectory<D>>(path, model, particles, spins, bytes);
+    return std::make_unique<H5mdTrajectory<D>>(path, model, particles, bytes);
   }
-  return std::make_unique<TextTrajectory<D>>(path, format, spins, bytes);
+  if (format == TrajectoryFormat::Vtp) {
+    return std::make_unique<VtpTrajectory<D>>(path, bytes);
+  }
+  return std::make_unique<TextTrajectory<D>>(path, format, particles, bytes);
 }
 
 template std::unique_ptr<TrajectoryFile<2>> open_trajectory(const std::filesystem::path&,
                                                             TrajectoryFormat, const Model<2>&,
-                                                            std::size_t, bool, std::uint64_t);
+                                                            const TrajectoryParticles&,
+                                                            std::uint64_t);
 template std::unique_ptr<TrajectoryFile<3>> open_trajectory(const std::filesystem::path&,
                                                             TrajectoryFormat, const Model<3>&,
-                                                            std::size_t, bool, std::uint64_t);
+                                                            const TrajectoryParticles&,
+                                                            std::uint64_t);
 
 }  // namespace clatter

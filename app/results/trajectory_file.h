@@ -26,17 +26,17 @@ class TrajectoryFile {
   virtual void finish() = 0;
 };
 
-/// The file that collects the frames of a trajectory during the run: FILE.h5md.records, or the
-/// trajectory itself.
+/// The file that collects the frames of a trajectory during the run: FILE.h5md.records,
+/// FILE.vtp.series, or the trajectory itself.
 std::filesystem::path frames_path(const std::filesystem::path& trajectory, TrajectoryFormat format);
 
-/// Opens a trajectory of `particles` particles in the box of the model, with the first `bytes`
-/// bytes of its frames; 0: a new file. `spins`: whether the frames have angular velocities. Throws
-/// UserError if the file has fewer bytes, and RunError if it cannot be written.
+/// Opens a trajectory of particles in the box of the model, with the first `bytes` bytes of its
+/// frames; 0: a new file. Throws UserError if the file has fewer bytes, and RunError if it cannot
+/// be written.
 template <int D>
 std::unique_ptr<TrajectoryFile<D>> open_trajectory(const std::filesystem::path& path,
                                                    TrajectoryFormat format, const Model<D>& model,
-                                                   std::size_t particles, bool spins,
+                                                   const TrajectoryParticles& particles,
                                                    std::uint64_t bytes);
 
 }  // namespace clatter

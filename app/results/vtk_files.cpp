@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cctype>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <system_error>
 
+#include "app/results/vtk_xml.h"
 #include "engine/statistics/part_sums.h"
 #include "engine/system/write_file.h"
 #include "engine/text.h"
@@ -84,13 +84,6 @@ std::string attributes_of(const DataArray& array) {
   return text;
 }
 
-std::string head(const std::string& type, const std::string& origin) {
-  const bool little = std::endian::native == std::endian::little;
-  return "<?xml version=\"1.0\"?>\n<!-- " + origin + "; units, " + kUnits + " -->\n" +
-         "<VTKFile type=\"" + type + "\" version=\"1.0\" byte_order=\"" +
-         (little ? "LittleEndian" : "BigEndian") + "\" header_type=\"UInt64\">\n";
-}
-
 // The values follow the XML as raw binary data, as in files of VTK's own writer. They are exact,
 // NaN included.
 std::string image_data(const FieldMaps& maps, const std::string& origin, const StopRequest& stop) {
@@ -103,7 +96,7 @@ std::string image_data(const FieldMaps& maps, const std::string& origin, const S
     spacing += gap + number_text(off_plane ? 1.0 : maps.cell[axis]);
   }
   std::string data;
-  std::string xml = head("ImageData", origin) + "  <ImageData WholeExtent=\"" + extent +
+  std::string xml = vtk_head("ImageData", origin) + "  <ImageData WholeExtent=\"" + extent +
                     "\" Origin=\"0 0 0\" Spacing=\"" + spacing + "\">\n" +
                     "    <FieldData>\n"
                     "      <DataArray type=\"Float64\" Name=\"time\" NumberOfTuples=\"2\" "
@@ -133,7 +126,7 @@ std::string part_name(std::size_t part) {
 
 void write_series(const std::filesystem::path& folder, const std::vector<FieldMaps>& series,
                   const std::string& origin, const StopRequest& stop) {
-  std::string collection = head("Collection", origin) + "  <Collection>\n";
+  std::string collection = vtk_head("Collection", origin) + "  <Collection>\n";
   for (std::size_t k = 0; k < series.size(); ++k) {
     write_file(folder / part_name(k), image_data(series[k], origin, stop));
     collection += "    <DataSet timestep=\"" +

@@ -10,6 +10,7 @@
 
 #include "engine/checkpoint/archive.h"
 #include "engine/error.h"
+#include "engine/system/write_file.h"
 
 namespace clatter {
 
@@ -45,13 +46,20 @@ std::filesystem::path records_path(const std::filesystem::path& log) {
   return log.string() + ".records";
 }
 
+std::filesystem::path particles_path(const std::filesystem::path& log) {
+  std::filesystem::path path = log;
+  return path.replace_extension(".particles.csv");
+}
+
 template <int D>
 EventRecorder<D>::EventRecorder(const std::filesystem::path& path, EventSelection selection,
-                                bool spins, Simulation<D>& simulation)
+                                bool spins, std::vector<std::string> species,
+                                Simulation<D>& simulation)
     : format_(event_log_format(path, "--events")),
       path_(path),
       selection_(std::move(selection)),
       spins_(spins),
+      species_(std::move(species)),
       quantities_(event_quantities(D, spins)),
       simulation_(simulation),
       observation_(simulation, *this) {
@@ -61,12 +69,14 @@ EventRecorder<D>::EventRecorder(const std::filesystem::path& path, EventSelectio
 
 template <int D>
 EventRecorder<D>::EventRecorder(const std::filesystem::path& path, EventSelection selection,
-                                bool spins, Simulation<D>& simulation, const std::string& saved,
+                                bool spins, std::vector<std::string> species,
+                                Simulation<D>& simulation, const std::string& saved,
                                 const std::string& checkpoint)
     : format_(event_log_format(path, "--events")),
       path_(path),
       selection_(std::move(selection)),
       spins_(spins),
+      species_(std::move(species)),
       quantities_(event_quantities(D, spins)),
       simulation_(simulation),
       observation_(simulation, *this) {
@@ -151,11 +161,26 @@ std::string EventRecorder<D>::save() {
   return writer.written();
 }
 
+// The particles at the end, with those that entered during the run.
+template <int D>
+LoggedParticles EventRecorder<D>::logged_particles() const {
+  LoggedParticles particles{.species = species_, .grains = {}};
+  for (std::uint32_t i = 0; !species_.empty() && i < simulation_.particles().size(); ++i) {
+    particles.grains.push_back(simulation_.grain(i));
+  }
+  return particles;
+}
+
 template <int D>
 void EventRecorder<D>::finish(bool resumable) {
   flush();
   file_->sync();
-  if (format_ == EventLogFormat::Hdf5) write_event_file(path_, records_path(path_), quantities_);
+  const LoggedParticles particles = logged_particles();
+  if (format_ == EventLogFormat::Hdf5) {
+    write_event_file(path_, records_path(path_), quantities_, particles);
+  } else if (!particles.species.empty()) {
+    write_file(particles_path(path_), csv_text(particles));
+  }
   file_->close();
   if (format_ == EventLogFormat::Csv || resumable) return;
   std::error_code ignored;

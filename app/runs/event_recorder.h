@@ -23,17 +23,23 @@ struct EventSelection {
 /// The file that collects the records of a log during the run: FILE.h5.records, or the CSV itself.
 std::filesystem::path records_path(const std::filesystem::path& log);
 
+/// The table of what the particles of a mixture are, beside an event log in CSV:
+/// FILE.particles.csv.
+std::filesystem::path particles_path(const std::filesystem::path& log);
+
 /// Logs the collisions of a run, between particles and with walls.
 template <int D>
 class EventRecorder final : private Observer<D> {
  public:
-  /// Begins a log. `spins`: whether particles spin at some time of the run. Throws RunError.
+  /// Begins a log. `spins`: whether particles spin at some time of the run. `species` are the names
+  /// of those of a mixture; empty: all particles are alike. Throws RunError.
   EventRecorder(const std::filesystem::path& path, EventSelection selection, bool spins,
-                Simulation<D>& simulation);
+                std::vector<std::string> species, Simulation<D>& simulation);
   /// Continues a log from the result of save() at this time of the run. `checkpoint` is the name
   /// for errors. Throws UserError if the selection or the format differs, and RunError.
   EventRecorder(const std::filesystem::path& path, EventSelection selection, bool spins,
-                Simulation<D>& simulation, const std::string& saved, const std::string& checkpoint);
+                std::vector<std::string> species, Simulation<D>& simulation,
+                const std::string& saved, const std::string& checkpoint);
 
   /// Writes the events so far. To be called between steps of the run, because an event cannot fail.
   /// Throws RunError.
@@ -49,12 +55,14 @@ class EventRecorder final : private Observer<D> {
  private:
   void on_collision(const PairCollision<D>& collision) override;
   void on_wall(const WallCollision<D>& collision) override;
+  LoggedParticles logged_particles() const;
   bool selects(const ParticleChange<D>& first, const ParticleChange<D>* second);
 
   EventLogFormat format_;
   std::filesystem::path path_;
   EventSelection selection_;
   bool spins_;
+  std::vector<std::string> species_;  // names; empty: all particles are alike
   std::vector<EventQuantity> quantities_;
   const Simulation<D>& simulation_;
   std::uint64_t candidates_ = 0;  // events before the share was taken

@@ -112,24 +112,28 @@ bool Run<D>::ever_spins() const {
 template <int D>
 void Run<D>::record(const std::filesystem::path& file, double every) {
   std::string saved = resumed_ ? std::move(resumed_->checkpoint.trajectory) : "";
+  const std::vector<std::string> names = names_of(scene_.species);
   if (saved.empty()) {
     std::error_code ignored;
-    if (resumed_ && std::filesystem::exists(file, ignored)) {
+    const std::filesystem::path frames = frames_path(file, trajectory_format(file, "--trajectory"));
+    if (resumed_ &&
+        (std::filesystem::exists(file, ignored) || std::filesystem::exists(frames, ignored))) {
       throw UserError({"--trajectory", 0, 0},
                       file.string() + " exists, and the checkpoint has no trajectory",
                       "give another name, because this run would not continue the file");
     }
-    recorder_.emplace(file, every, ever_spins(), simulation());
+    recorder_.emplace(file, every, ever_spins(), names, simulation());
   } else {
-    recorder_.emplace(file, every, ever_spins(), simulation(), saved, resumed_->file);
+    recorder_.emplace(file, every, ever_spins(), names, simulation(), saved, resumed_->file);
   }
 }
 
 template <int D>
 void Run<D>::log_events(const std::filesystem::path& file, const EventSelection& selection) {
   const std::string saved = resumed_ ? std::move(resumed_->checkpoint.events) : "";
+  const std::vector<std::string> names = names_of(scene_.species);
   if (!saved.empty()) {
-    events_.emplace(file, selection, ever_spins(), simulation(), saved, resumed_->file);
+    events_.emplace(file, selection, ever_spins(), names, simulation(), saved, resumed_->file);
     return;
   }
   std::error_code ignored;
@@ -139,7 +143,7 @@ void Run<D>::log_events(const std::filesystem::path& file, const EventSelection&
                     existing.string() + " exists, and the checkpoint has no event log",
                     "give another name, because this run would not continue the file");
   }
-  events_.emplace(file, selection, ever_spins(), simulation());
+  events_.emplace(file, selection, ever_spins(), names, simulation());
 }
 
 template <int D>

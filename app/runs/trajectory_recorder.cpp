@@ -31,11 +31,12 @@ void visit(Archive& io, SavedTrajectory& saved) {
 
 template <int D>
 TrajectoryRecorder<D>::TrajectoryRecorder(const std::filesystem::path& path, double every,
-                                          bool spins, Simulation<D>& simulation)
+                                          bool spins, const std::vector<std::string>& species,
+                                          Simulation<D>& simulation)
     : format_(trajectory_format(path, "--trajectory")),
       path_(path),
       every_(every),
-      spins_(spins),
+      particles_(particles_of(simulation, spins, species)),
       times_(every),
       next_(times_.first_from(simulation.time())) {
   images_.emplace(simulation);
@@ -44,12 +45,13 @@ TrajectoryRecorder<D>::TrajectoryRecorder(const std::filesystem::path& path, dou
 
 template <int D>
 TrajectoryRecorder<D>::TrajectoryRecorder(const std::filesystem::path& path, double every,
-                                          bool spins, Simulation<D>& simulation,
-                                          const std::string& saved, const std::string& checkpoint)
+                                          bool spins, const std::vector<std::string>& species,
+                                          Simulation<D>& simulation, const std::string& saved,
+                                          const std::string& checkpoint)
     : format_(trajectory_format(path, "--trajectory")),
       path_(path),
       every_(every),
-      spins_(spins),
+      particles_(particles_of(simulation, spins, species)),
       times_(every) {
   images_.emplace(simulation);
   ArchiveReader reader(saved, checkpoint);
@@ -79,9 +81,19 @@ TrajectoryRecorder<D>::TrajectoryRecorder(const std::filesystem::path& path, dou
 }
 
 template <int D>
+TrajectoryParticles TrajectoryRecorder<D>::particles_of(const Simulation<D>& simulation, bool spins,
+                                                        const std::vector<std::string>& species) {
+  TrajectoryParticles particles{
+      .count = simulation.particles().size(), .spins = spins, .species = species};
+  for (std::uint32_t i = 0; !species.empty() && i < particles.count; ++i) {
+    particles.grains.push_back(simulation.grain(i));
+  }
+  return particles;
+}
+
+template <int D>
 void TrajectoryRecorder<D>::open(const Simulation<D>& simulation, std::uint64_t bytes) {
-  file_ = open_trajectory<D>(path_, format_, simulation.model(), simulation.particles().size(),
-                             spins_, bytes);
+  file_ = open_trajectory<D>(path_, format_, simulation.model(), particles_, bytes);
 }
 
 template <int D>
@@ -89,9 +101,10 @@ void TrajectoryRecorder<D>::add(const Simulation<D>& simulation) {
   TrajectoryFrame<D> frame{.number = static_cast<long>(next_),
                            .time = simulation.time(),
                            .model = simulation.model(),
+                           .particles = particles_,
                            .state = simulation.state(),
                            .images = images_->images()};
-  frame.state.spins.resize(spins_ ? frame.state.positions.size() : 0, Spin<D>::Zero());
+  frame.state.spins.resize(particles_.spins ? frame.state.positions.size() : 0, Spin<D>::Zero());
   file_->add(frame);
   ++next_;
 }
@@ -99,7 +112,8 @@ void TrajectoryRecorder<D>::add(const Simulation<D>& simulation) {
 template <int D>
 std::string TrajectoryRecorder<D>::save() {
   file_->sync();
-  SavedTrajectory saved{every_, next_, file_->bytes(), static_cast<std::uint8_t>(format_), spins_};
+  SavedTrajectory saved{every_, next_, file_->bytes(), static_cast<std::uint8_t>(format_),
+                        particles_.spins};
   ArchiveWriter writer;
   writer(saved, *images_);
   return writer.written();

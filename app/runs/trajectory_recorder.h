@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/results/trajectory_file.h"
 #include "engine/dynamics/regular_times.h"
@@ -15,20 +16,20 @@ namespace clatter {
 
 /// Writes the exact states of a run into a trajectory at the times 0, `every`, 2 `every` and so on.
 /// All frames have the same columns: `spins` states whether they have angular velocities, which are
-/// 0 while nothing is rough.
+/// 0 while nothing is rough, and `species` are the names of those of a mixture.
 template <int D>
 class TrajectoryRecorder {
  public:
   /// Begins a trajectory at the first of the times that the simulation has not passed. Throws
   /// RunError.
   TrajectoryRecorder(const std::filesystem::path& path, double every, bool spins,
-                     Simulation<D>& simulation);
+                     const std::vector<std::string>& species, Simulation<D>& simulation);
   /// Continues a trajectory from the result of save() at this time of the run. `checkpoint` is the
   /// name for errors. Throws UserError if `every` or `spins` differs or the file lacks frames, and
   /// RunError.
   TrajectoryRecorder(const std::filesystem::path& path, double every, bool spins,
-                     Simulation<D>& simulation, const std::string& saved,
-                     const std::string& checkpoint);
+                     const std::vector<std::string>& species, Simulation<D>& simulation,
+                     const std::string& saved, const std::string& checkpoint);
 
   /// The simulation time of the next frame.
   double next_time() const { return times_.of(next_); }
@@ -43,12 +44,14 @@ class TrajectoryRecorder {
   std::string flags() const;
 
  private:
+  static TrajectoryParticles particles_of(const Simulation<D>& simulation, bool spins,
+                                          const std::vector<std::string>& species);
   void open(const Simulation<D>& simulation, std::uint64_t bytes);
 
   TrajectoryFormat format_;
   std::filesystem::path path_;
   double every_;
-  bool spins_;
+  TrajectoryParticles particles_;
   RegularTimes times_;
   std::uint64_t next_ = 0;  // number of the next frame
   std::optional<PeriodicImages<D>> images_;

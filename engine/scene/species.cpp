@@ -47,6 +47,12 @@ int count_of(const std::vector<Species>& species) {
   return count;
 }
 
+std::vector<std::string> names_of(const std::vector<Species>& species) {
+  std::vector<std::string> names;
+  for (const Species& one : species) names.push_back(one.name);
+  return names;
+}
+
 std::optional<std::size_t> find_species(const std::vector<Species>& species,
                                         std::string_view name) {
   const auto found = std::ranges::find(species, name, &Species::name);

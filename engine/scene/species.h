@@ -82,6 +82,9 @@ bool is_species_name(std::string_view name);
 /// Number of particles of all species.
 int count_of(const std::vector<Species>& species);
 
+/// The names of species.
+std::vector<std::string> names_of(const std::vector<Species>& species);
+
 /// The number of the species of a name; absent without one.
 std::optional<std::size_t> find_species(const std::vector<Species>& species, std::string_view name);
 
