@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -53,11 +54,37 @@ void write_list(const H5::H5Object& object, const std::string& name, const Json&
   }
 }
 
-// Members that are objects become groups, all others attributes.
+// The name of an object in a list: its key name, or the names of its two species. Empty: none.
+std::string item_name(const Json& item) {
+  if (!item.is_object()) return "";
+  if (item.contains("name") && item.at("name").is_string()) return item.at("name");
+  if (!item.contains("species") || !item.at("species").is_array()) return "";
+  std::string names;
+  for (const Json& name : item.at("species")) {
+    if (!name.is_string()) return "";
+    names += (names.empty() ? "" : ",") + name.get<std::string>();
+  }
+  return names;
+}
+
+// Whether all items of a list are objects with different names.
+bool has_named_items(const Json& list) {
+  std::set<std::string> names;
+  return list.is_array() && !list.empty() && std::ranges::all_of(list, [&](const Json& item) {
+           const std::string name = item_name(item);
+           return !name.empty() && names.insert(name).second;
+         });
+}
+
+// Members that are objects become groups, as do lists of objects with names. All others are
+// attributes.
 void write_object(const H5::Group& group, const Json& object) {
   for (const auto& [name, value] : object.items()) {
     if (value.is_object()) {
       write_object(group.createGroup(name), value);
+    } else if (has_named_items(value)) {
+      const H5::Group items = group.createGroup(name);
+      for (const Json& item : value) write_object(items.createGroup(item_name(item)), item);
     } else if (value.is_array()) {
       write_list(group, name, value);
     } else if (value.is_string()) {
