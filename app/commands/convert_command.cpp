@@ -20,9 +20,10 @@ void add_convert_command(CLI::App& program, int& exit_code) {
       ->check(named_file())
       ->type_name("IN");
   command
-      ->add_option("out", options->out,
-                   "A start state (.csv), or a trajectory (.xyz, .lammpstrj, .gsd, .h5md). An "
-                   "existing file is replaced.")
+      ->add_option(
+          "out", options->out,
+          "A start state (.csv), or a trajectory (.xyz, .lammpstrj, .gsd, .h5md, .vtp). An "
+          "existing file is replaced.")
       ->required()
       ->check(named_file())
       ->type_name("OUT");
@@ -32,13 +33,14 @@ void add_convert_command(CLI::App& program, int& exit_code) {
       ->check(whole_number_between(0, 1'000'000'000));
   command
       ->add_option("--scene", options->scene,
-                   "Scene with the box of the particles, because a CSV has none.")
+                   "Scene with the box and the species of the particles, because a CSV has no box.")
       ->check(named_file())
       ->type_name("SCENE");
   command
       ->add_option("--scale", options->choice.scale,
-                   "Diameter of the particles, in the lengths of the file. It becomes the unit of "
-                   "length: positions, box and velocities are divided by it. Default: 1.")
+                   "Diameter of the particles, or of one species, in the lengths of the file. It "
+                   "becomes the unit of length: positions, box and velocities are divided by it. "
+                   "Default: 1.")
       ->check(positive_number())
       ->type_name("LENGTH");
   CLI::Option* const temperature =

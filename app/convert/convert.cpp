@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/import/frame_reader.h"
+#include "app/import/frame_species.h"
 #include "app/results/three_axes.h"
 #include "app/results/trajectory_file.h"
 #include "app/results/vtp_trajectory.h"
@@ -24,6 +25,7 @@
 #include "engine/scene/state_file.h"
 #include "engine/system/signals.h"
 #include "engine/system/write_file.h"
+#include "engine/text.h"
 
 namespace clatter {
 
@@ -60,6 +62,8 @@ ParticleFrame frame_of_checkpoint(const std::string& file) {
     frame.velocities = all_in_space(state.velocities);
     frame.spins = all_in_space(state.spins);
     frame.images.resize(frame.positions.size());
+    frame.species = run.laws().species;
+    frame.grains = state.grains;
     return frame;
   });
 }
@@ -78,7 +82,7 @@ void require_no_choice(const FrameChoice& choice) {
 // Tells that particles of a deep box are disks.
 void note_disks(const ParticleFrame& frame, const ConvertOptions& options) {
   if (options.choice.dimension || frame.dimension == 3 || !frame.box) return;
-  if (frame.box->lengths[2] <= 1.0 + frame.rounding) return;
+  if (frame.box->lengths[2] <= frame.largest_diameter() * (1.0 + frame.rounding)) return;
   std::fprintf(stderr,
                "note: all particles of %s move in one plane z, so they are disks; "
                "--dimensions 3 makes spheres\n",
@@ -103,7 +107,36 @@ ParticleFrame frame_of_file(const ConvertOptions& options) {
   return frame;
 }
 
-// Gives the particles of a CSV the box of the scene.
+// Throws because particles have a species that the scene lacks.
+[[noreturn]] void refuse_names(const ConvertOptions& options, const std::string& problem) {
+  throw UserError({"--scene", 0, 0}, problem, "give the scene of " + options.in);
+}
+
+// Gives the particles the species of the scene, by their names. Without columns of sizes and masses
+// they are those of the species.
+void set_species(ParticleFrame& frame, const Scene& scene, const ConvertOptions& options) {
+  if (scene.species.empty()) return;
+  std::vector<Grain> grains;
+  for (std::size_t i = 0; i < frame.positions.size(); ++i) {
+    std::size_t number = 0;
+    if (!frame.species.empty()) {
+      const std::string& name = frame.species[frame.grains[i].species].name;
+      const auto found = find_species(scene.species, name);
+      if (!found) refuse_names(options, "the scene has no species " + in_quotes(name));
+      number = *found;
+    } else if (scene.species.size() > 1) {
+      refuse_names(options, "the scene has species, and " + options.in + " has none");
+    }
+    Grain grain = scene.grain(number, 0, 1);
+    if (!frame.diameters.empty()) grain.radius = 0.5 * frame.diameters[i];
+    if (!frame.masses.empty()) grain.mass = frame.masses[i];
+    grains.push_back(grain);
+  }
+  frame.species = scene.species;
+  frame.grains = std::move(grains);
+}
+
+// Gives the particles of a CSV the box and the species of the scene.
 void add_box(ParticleFrame& frame, const ConvertOptions& options) {
   if (options.scene.empty()) return;
   if (frame.box) {
@@ -116,6 +149,7 @@ void add_box(ParticleFrame& frame, const ConvertOptions& options) {
                         options.in + " has " + std::to_string(frame.dimension),
                     "give the scene of the particles");
   }
+  set_species(frame, scene, options);
   set_box(frame, scene);
   wrap_into_box(frame, options.in);
 }
@@ -128,14 +162,20 @@ void draw_velocities(ParticleFrame& frame, const ConvertOptions& options) {
     throw UserError({"--temperature", 0, 0}, options.in + " has velocities", "omit --temperature");
   }
   with_dimension(frame.dimension, [&](auto dimension) {
-    frame.velocities = all_in_space(gaussian_velocities<dimension()>(
-        frame.positions.size(), *options.temperature, options.seed));
+    std::vector<double> masses;
+    for (const Grain& grain : frame.grains) masses.push_back(grain.mass);
+    frame.velocities = all_in_space(
+        masses.empty()
+            ? gaussian_velocities<dimension()>(frame.positions.size(), *options.temperature,
+                                               options.seed)
+            : gaussian_velocities<dimension()>(masses, *options.temperature, options.seed));
   });
 }
 
 template <int D>
 State<D> state_of(const ParticleFrame& frame) {
   State<D> state;
+  state.grains = frame.grains;
   for (const ParticleFrame::Vector& vector : frame.positions) {
     state.positions.emplace_back(Eigen::Map<const Vec<D>>(vector.data()));
   }
@@ -152,6 +192,7 @@ template <int D>
 Model<D> model_of(const ParticleFrame& frame) {
   constexpr double kUniform = D == 2 ? 0.5 : 0.4;
   Model<D> model;
+  model.diameter = frame.largest_diameter();
   model.inertia = frame.inertia.value_or(kUniform);
   for (int axis = 0; axis < D; ++axis) {
     model.box[axis] = frame.box->lengths[axis];
@@ -168,7 +209,9 @@ void write_frame(const std::filesystem::path& path, TrajectoryFormat format,
                  const ParticleFrame& frame) {
   const Model<D> model = model_of<D>(frame);
   const TrajectoryParticles particles{.count = frame.positions.size(),
-                                      .spins = !frame.spins.empty()};
+                                      .spins = !frame.spins.empty(),
+                                      .species = names_of(frame.species),
+                                      .grains = frame.grains};
   TrajectoryFrame<D> written{.number = frame.number,
                              .time = frame.time,
                              .model = model,
@@ -201,6 +244,21 @@ void write_frame(const std::filesystem::path& path, TrajectoryFormat format,
   }
 }
 
+// Throws for a start state of several kinds whose sizes or masses are in its scene alone.
+void require_sizes(const ParticleFrame& frame, const ConvertOptions& options) {
+  const bool known = !frame.diameters.empty() && !frame.masses.empty();
+  if (!frame.mixture || frame.box || known || !options.scene.empty()) return;
+  throw UserError({options.in}, "the columns diameter and mass are missing",
+                  "add them, or give the scene of the particles with --scene");
+}
+
+// A start state names species, and its scene describes them.
+void note_species(const ParticleFrame& frame, TrajectoryFormat format) {
+  if (format != TrajectoryFormat::Csv || frame.names.empty() || frame.species.empty()) return;
+  std::fprintf(stderr, "note: the scene of this start state needs these species:\n%s",
+               species_toml(frame).c_str());
+}
+
 }  // namespace
 
 int convert(const ConvertOptions& options) {
@@ -209,12 +267,13 @@ int convert(const ConvertOptions& options) {
   require_distinct({&out, 1}, std::vector<std::filesystem::path>{options.in, options.scene});
   require_writable_file(options.out, "OUT");
   ParticleFrame frame = frame_of_file(options);
+  require_sizes(frame, options);
   add_box(frame, options);
   draw_velocities(frame, options);
   catch_interrupts();  // the new file is written whole, and a signal ends the reading at once
   with_dimension(frame.dimension, [&](auto dimension) {
     if (format == TrajectoryFormat::Csv) {
-      write_file(options.out, state_to_csv(state_of<dimension>(frame)));
+      write_file(options.out, state_to_csv(state_of<dimension>(frame), frame.species));
       return;
     }
     if (!frame.box) {
@@ -222,6 +281,7 @@ int convert(const ConvertOptions& options) {
     }
     write_frame<dimension>(options.out, format, frame);
   });
+  if (options.scene.empty()) note_species(frame, format);
   return kOk;
 }
 

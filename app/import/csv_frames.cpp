@@ -7,6 +7,7 @@
 
 #include "app/import/particle_table.h"
 #include "app/import/text_frames.h"
+#include "engine/laws/limits.h"
 #include "engine/scene/csv_line.h"
 #include "engine/text.h"
 
@@ -21,7 +22,14 @@ class CsvFrames {
       : path_(path), choice_(choice), lines_(path) {
     if (!next_line()) lines_.refuse("the file has no header line", "name the columns in a header");
     const LineWords names = cells();
-    table_ = ParticleTable(columns(), {}, {names.begin(), names.end()});
+    const std::vector<int> all = columns();
+    const auto species = std::ranges::find(all, +kName);
+    if (species != all.end()) species_ = static_cast<std::size_t>(species - all.begin());
+    if (std::ranges::count(all, +kName) > 1) {
+      lines_.refuse("two columns are species", "remove one of them");
+    }
+    const std::vector<int> derived = species_ ? std::vector<int>{kType} : std::vector<int>();
+    table_ = ParticleTable(all, derived, {names.begin(), names.end()});
     table_.require_state(lines_, choice_, "give the columns vx and vy");
     if (is_spatial()) table_.require_spheres(lines_, lines_.number());
     if (choice_.dimension && *choice_.dimension != (is_spatial() ? 3 : 2)) {
@@ -36,9 +44,10 @@ class CsvFrames {
     ParticleFrame frame;
     frame.dimension = is_spatial() ? 3 : 2;
     frame.number = static_cast<long>(frames_++);
+    frame.mixture = species_.has_value();
     std::vector<ParticleLine> particles;
     for (; more_; more_ = next_line()) {
-      const ParticleTable::Row row = table_.row(lines_, cells());
+      const ParticleTable::Row row = next_row(frame);
       if (!particles.empty() && row[kTime] != frame.time) {
         require_later(row[kTime], frame.time);
         break;
@@ -60,6 +69,19 @@ class CsvFrames {
 
  private:
   bool is_spatial() const { return table_.has(kX + 2) || table_.has(kVx + 2); }
+
+  // The values of the present line. Names of species have numbers in the order of their occurrence.
+  ParticleTable::Row next_row(ParticleFrame& frame) const {
+    const LineWords words = cells();
+    ParticleTable::Row row = table_.row(lines_, words);
+    if (!species_) return row;
+    row[kType] = type_of_name(frame.names, words[*species_]);
+    if (frame.names.size() > kMaxSpecies) {
+      lines_.refuse("there are more than " + std::to_string(kMaxSpecies) + " species",
+                    "give a species its particles of all sizes");
+    }
+    return row;
+  }
 
   // Skips blank lines and comments.
   bool next_line() {
@@ -89,6 +111,9 @@ class CsvFrames {
                                                              {"omega_x", kOmega},
                                                              {"omega_y", kOmega + 1},
                                                              {"omega_z", kOmega + 2},
+                                                             {"diameter", kDiameter},
+                                                             {"mass", kMass},
+                                                             {"species", kName},
                                                              {"time", kTime},
                                                              {"particle", kId}};
     const LineWords names = cells();
@@ -121,6 +146,7 @@ class CsvFrames {
   FrameChoice choice_;
   TextLines lines_;
   ParticleTable table_;
+  std::optional<std::size_t> species_;  // the column of their names; absent: none
   bool more_ = false;
   std::size_t frames_ = 0;
   std::size_t particles_ = 0;  // of the first frame

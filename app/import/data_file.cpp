@@ -19,20 +19,21 @@ namespace clatter {
 
 namespace {
 
-constexpr int kType = kReal + 1;  // columns of data files alone
+// Columns of data files alone: a number of a type or its label, and a density.
+constexpr int kTypeOrLabel = kReal + 1;
 constexpr int kDensity = kReal + 2;
 
 // The columns of the section Atoms, by atom style.
 const std::map<std::string_view, std::vector<int>> kStyles = {
-    {"atomic", {kId, kType, kX, kX + 1, kX + 2}},
-    {"charge", {kId, kType, kReal, kX, kX + 1, kX + 2}},
-    {"bond", {kId, kWhole, kType, kX, kX + 1, kX + 2}},
-    {"angle", {kId, kWhole, kType, kX, kX + 1, kX + 2}},
-    {"molecular", {kId, kWhole, kType, kX, kX + 1, kX + 2}},
-    {"full", {kId, kWhole, kType, kReal, kX, kX + 1, kX + 2}},
-    {"dipole", {kId, kType, kReal, kX, kX + 1, kX + 2, kReal, kReal, kReal}},
-    {"sphere", {kId, kType, kDiameter, kDensity, kX, kX + 1, kX + 2}},
-    {"bpm/sphere", {kId, kWhole, kType, kDiameter, kDensity, kX, kX + 1, kX + 2}}};
+    {"atomic", {kId, kTypeOrLabel, kX, kX + 1, kX + 2}},
+    {"charge", {kId, kTypeOrLabel, kReal, kX, kX + 1, kX + 2}},
+    {"bond", {kId, kWhole, kTypeOrLabel, kX, kX + 1, kX + 2}},
+    {"angle", {kId, kWhole, kTypeOrLabel, kX, kX + 1, kX + 2}},
+    {"molecular", {kId, kWhole, kTypeOrLabel, kX, kX + 1, kX + 2}},
+    {"full", {kId, kWhole, kTypeOrLabel, kReal, kX, kX + 1, kX + 2}},
+    {"dipole", {kId, kTypeOrLabel, kReal, kX, kX + 1, kX + 2, kReal, kReal, kReal}},
+    {"sphere", {kId, kTypeOrLabel, kDiameter, kDensity, kX, kX + 1, kX + 2}},
+    {"bpm/sphere", {kId, kWhole, kTypeOrLabel, kDiameter, kDensity, kX, kX + 1, kX + 2}}};
 
 // Whether the particles depend on a section.
 bool is_read(const std::string& section) {
@@ -349,7 +350,7 @@ class DataFile {
       if (is_image && !whole_number<long long>(content_[k])) {
         lines_.refuse(quoted_start(content_[k]) + " is no periodic image", "give whole numbers");
       }
-      if (columns_[k] == kType) types_of_rows_.push_back(type_of(content_[k]));
+      if (columns_[k] == kTypeOrLabel) row[kType] = static_cast<double>(type_of(content_[k]));
       if (columns_[k] != kDensity) continue;
       const double diameter = row[kDiameter];
       row[kMass] =
@@ -403,13 +404,16 @@ class DataFile {
                     "give velocities, or draw them with --temperature");
     }
     add_sorted(frame, table, std::move(rows_), AllZero::NoNumbers, path_);
+    std::map<int, std::string> names;
+    for (const auto& [label, type] : labels_) names[static_cast<int>(type)] = label;
+    name_types(frame, names);
     frame.dimension = dimension_of(frame, choice_, path_);
     move_corner(frame, low_);
     return frame;
   }
 
   std::vector<int> derived_quantities() const {
-    std::vector<int> derived;
+    std::vector<int> derived = {kType};
     if (has_diameters() || !masses_.empty()) derived.push_back(kMass);
     for (int axis = 0; has_velocities_ && axis < 3; ++axis) {
       derived.push_back(kVx + axis);
@@ -419,9 +423,9 @@ class DataFile {
   }
 
   void set_masses() {
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const auto mass = masses_.find(types_of_rows_[i]);
-      if (mass != masses_.end()) rows_[i].row[kMass] = mass->second;
+    for (auto& [row, line] : rows_) {
+      const auto mass = masses_.find(static_cast<std::size_t>(row[kType]));
+      if (mass != masses_.end()) row[kMass] = mass->second;
     }
   }
 
@@ -439,7 +443,6 @@ class DataFile {
   std::vector<int> columns_;                                // of the section Atoms
   ParticleTable table_;                                     // of the section Atoms
   std::vector<ParticleLine> rows_;                          // [N]
-  std::vector<std::size_t> types_of_rows_;                  // [N]
   std::map<double, std::size_t> place_of_;                  // row of an atom
   std::map<std::size_t, double> masses_;                    // by atom type
   std::map<std::string, std::size_t> labels_;               // atom type of a label

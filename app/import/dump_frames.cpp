@@ -171,7 +171,7 @@ class DumpFrames {
                                                              {"radius", kRadius},
                                                              {"diameter", kDiameter},
                                                              {"mass", kMass},
-                                                             {"type", kWhole},
+                                                             {"type", kType},
                                                              {"mol", kWhole},
                                                              {"proc", kWhole},
                                                              {"procp1", kWhole}};
@@ -199,6 +199,7 @@ class DumpFrames {
       atoms.push_back({row, lines_.number()});
     }
     add_sorted(frame, table, std::move(atoms), AllZero::NoNumbers, path_);
+    name_types(frame);
     frame.dimension = dimension_of(frame, choice_, path_);
     if (frame.dimension == 3) table.require_spheres(lines_, header);
     move_corner(frame, corner);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/import/binary_frames.h"
+#include "app/import/frame_species.h"
 #include "app/import/gzip.h"
 #include "app/import/text_frames.h"
 #include "app/results/trajectory.h"
@@ -57,35 +58,7 @@ void require_finite(const ParticleFrame& frame, const std::vector<ParticleFrame:
   }
 }
 
-// Throws unless positive numbers of the particles are equal, apart from rounding.
-void require_equal(const ParticleFrame& frame, const std::vector<double>& numbers,
-                   const std::string& quantities, const std::string& advice,
-                   const std::filesystem::path& path) {
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (!(numbers[i] > 0.0 && std::isfinite(numbers[i]))) {
-      refuse_particle(frame, i, path,
-                      quantities + " must be positive, not " + number_text(numbers[i]), advice);
-    }
-    if (std::fabs(numbers[i] - numbers[0]) <= frame.rounding * numbers[0]) continue;
-    refuse_particle(
-        frame, i, path,
-        quantities + " differ: " + number_text(numbers[0]) + " and " + number_text(numbers[i]),
-        advice);
-  }
-}
-
-void require_one_kind(const ParticleFrame& frame, double scale, const std::filesystem::path& path) {
-  require_equal(frame, frame.masses, "masses", "give particles of the same mass", path);
-  require_equal(frame, frame.diameters, "diameters", "give particles of one size only", path);
-  if (frame.diameters.empty()) return;
-  const double diameter = frame.diameters[0];
-  if (std::fabs(diameter / scale - 1.0) <= frame.rounding) return;
-  refuse_particle(frame, 0, path,
-                  "the diameter is " + number_text(diameter / scale) + " instead of 1",
-                  "divide all lengths by the diameter with --scale " + number_text(diameter));
-}
-
-// Throws unless the box has room for a particle.
+// Throws unless the box has room for the largest particle.
 void require_room(const ParticleFrame& frame, const std::filesystem::path& path) {
   for (int axis = 0; frame.box && axis < 3; ++axis) {
     const double length = frame.box->lengths[axis];
@@ -96,7 +69,7 @@ void require_room(const ParticleFrame& frame, const std::filesystem::path& path)
           std::string("the edge of the box along ") + "xyz"[axis] + " is " + number_text(length),
           "give a positive number");
     }
-    if (length > 1.0 || axis >= frame.dimension) continue;
+    if (length > frame.largest_diameter() || axis >= frame.dimension) continue;
     const std::string extent = number_text(length) + " along " + "xyz"[axis];
     if (axis == 2) {
       const std::string problem = "the box is " + extent + ", too thin for spheres";
@@ -130,6 +103,7 @@ void divide_lengths(ParticleFrame& frame, double scale) {
   };
   std::ranges::for_each(frame.positions, divide);
   std::ranges::for_each(frame.velocities, divide);
+  for (double& diameter : frame.diameters) diameter /= scale;
   if (frame.box) divide(frame.box->lengths);
 }
 
@@ -173,9 +147,9 @@ ParticleFrame read_frame(const std::filesystem::path& path, const FrameChoice& c
     return ParticleFrame();
   };
   ParticleFrame frame = read();
-  require_one_kind(frame, choice.scale, path);
-  require_sound(frame, path);
   if (choice.scale != 1.0) divide_lengths(frame, choice.scale);
+  sort_into_species(frame, choice.scale, path);
+  require_sound(frame, path);
   require_room(frame, path);
   frame.images.resize(frame.positions.size());
   wrap_into_box(frame, path);

@@ -14,7 +14,7 @@ bool is_plain_text(const std::filesystem::path& path);
 /// names the format, before a name data.NAME does; text formats may be compressed by gzip. A start
 /// state is a trajectory of one frame. Lengths are divided by the chosen scale. Particles are
 /// inside the box along periodic axes. Throws UserError with the place for a malformed file, for a
-/// missing frame, and for particles whose diameter is not 1. `flag` names the file in errors of its
+/// missing frame, and for particles that no scene can have. `flag` names the file in errors of its
 /// extension.
 ParticleFrame read_frame(const std::filesystem::path& path, const FrameChoice& choice,
                          const char* flag);

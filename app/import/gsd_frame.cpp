@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,8 +37,9 @@ class GsdFrame {
     frame.rounding = kSingle;
     frame.number = step_of(number("configuration/step", 0.0));
     frame.time = number("log/time", 0.0);
-    frame.masses = particle_numbers("particles/mass", 1.0);
-    frame.diameters = particle_numbers("particles/diameter", 1.0);
+    frame.masses = sizes("particles/mass");
+    frame.diameters = sizes("particles/diameter");
+    read_types(frame);
     read_box(frame);
     read_positions(frame);
     read_velocities(frame);
@@ -91,6 +93,32 @@ class GsdFrame {
     return of_particles(name, 1).value_or(std::vector<double>(particles_, otherwise));
   }
 
+  // Masses or diameters.
+  std::vector<double> sizes(const std::string& name) {
+    return exact_numbers(name, particle_numbers(name, 1.0), name, std::numeric_limits<float>::min(),
+                         1);
+  }
+
+  // The types of the particles. Only the mixtures of clatter have exact diameters: their species
+  // may be a single one.
+  void read_types(ParticleFrame& frame) {
+    const std::string chunk = "particles/types";
+    std::map<int, std::string> names;
+    for (const std::string& name : reader_.texts(chunk, reader_.has(chunk, place_) ? place_ : 0)) {
+      names.emplace(static_cast<int>(names.size()), name);
+    }
+    frame.mixture = place_of("log/particles/diameter").has_value();
+    const Numbers types = of_particles("particles/typeid", 1);
+    if (!types && names.empty()) return;
+    for (const double type : types.value_or(std::vector<double>(particles_, 0.0))) {
+      if (!(type >= 0.0 && type < std::numeric_limits<int>::max())) {
+        refuse("a type of a particle is " + number_text(type), "give the numbers of types");
+      }
+      frame.types.push_back(static_cast<int>(type));
+    }
+    name_types(frame, names);
+  }
+
   std::vector<double> zeros() const { return std::vector<double>(3 * particles_, 0.0); }
 
   // The frame that has the exact numbers of a chunk, or of its defaults; absent: none has.
@@ -99,17 +127,18 @@ class GsdFrame {
     return newer ? std::nullopt : place_of(log);
   }
 
-  // The exact numbers log/NAME of the vectors `rounded`, which follow from a chunk or are its
-  // defaults. Without exact ones the rounded. Throws if the two contradict each other: differ by
-  // more than the rounding of numbers of at least a magnitude.
+  // The exact numbers log/NAME of `rounded`, by default vectors, which follow from a chunk or are
+  // its defaults. Without exact ones the rounded. Throws if the two contradict each other: differ
+  // by more than the rounding of numbers of at least a magnitude.
   std::vector<double> exact_numbers(const std::string& name, const std::vector<double>& rounded,
                                     const std::string& chunk,
-                                    double magnitude = std::numeric_limits<float>::min()) {
+                                    double magnitude = std::numeric_limits<float>::min(),
+                                    std::uint64_t columns = 3) {
     const std::optional<std::uint64_t> place = place_of_exact("log/" + name, chunk);
     if (!place) return rounded;
     const bool per_particle = name.starts_with("particles/");
     const std::vector<double> exact = *reader_.numbers(
-        "log/" + name, *place, per_particle ? particles_ : 3, per_particle ? 3 : 1);
+        "log/" + name, *place, per_particle ? particles_ : 3, per_particle ? columns : 1);
     for (std::size_t k = 0; k < rounded.size(); ++k) {
       const double size = std::max(std::fabs(exact[k]), magnitude);
       if (std::fabs(exact[k] - rounded[k]) <= kSingle * size) continue;
@@ -160,19 +189,20 @@ class GsdFrame {
     if (rounded || choice_.needs_velocities) frame.velocities = vectors_of(exact);
   }
 
-  // The moment of inertia about all axes, of disks about z; absent: the particles do not rotate,
-  // because all moments are 0.
-  std::optional<double> moment_of_inertia() {
+  // The moments of inertia about z, and of spheres about all axes; absent: the particles do not
+  // rotate, because all moments are 0.
+  Numbers moments_of_inertia() {
     const Numbers moments = of_particles("particles/moment_inertia", 3);
     const auto is_zero = [](double moment) { return moment == 0.0; };
     if (!moments || std::ranges::all_of(*moments, is_zero)) return std::nullopt;
-    const double about_z = (*moments)[2];
+    std::vector<double> about_z;
+    for (std::size_t k = 2; k < moments->size(); k += 3) about_z.push_back((*moments)[k]);
     for (std::size_t k = 0; k < moments->size(); ++k) {
-      const double moment = (*moments)[k];
+      const double moment = (*moments)[k], z = about_z[k / 3];
       const bool flat = k % 3 < 2 && moment == 0.0;
-      if (about_z > 0.0 && (flat || std::fabs(moment - about_z) <= kSingle * about_z)) continue;
-      refuse("the moments of inertia are not those of equal disks or spheres",
-             "give particles of one kind");
+      if (z > 0.0 && (flat || std::fabs(moment - z) <= kSingle * z)) continue;
+      refuse("the moments of inertia are not those of disks or spheres",
+             "give each particle the same moment about all axes, or about z alone");
     }
     return about_z;
   }
@@ -181,13 +211,15 @@ class GsdFrame {
   // of orientation.
   void read_rotation(ParticleFrame& frame) {
     const std::string log = "particles/angular_velocity", chunk = "particles/angmom";
-    const std::optional<double> moment = moment_of_inertia();
-    if (!moment) {
+    const Numbers moments = moments_of_inertia();
+    if (!moments) {
       exact_numbers(log, zeros(), "particles/moment_inertia");
       return;
     }
-    const double diameter = frame.diameters.front();
-    frame.inertia = 4.0 * *moment / (frame.masses.front() * diameter * diameter);
+    for (std::size_t i = 0; i < particles_; ++i) {
+      const double diameter = frame.diameters[i];
+      frame.inertias.push_back(4.0 * (*moments)[i] / (frame.masses[i] * diameter * diameter));
+    }
     const Numbers momenta = of_particles(chunk, 4);
     if (!momenta) {
       exact_numbers(log, zeros(), chunk);
@@ -199,9 +231,10 @@ class GsdFrame {
       const double* const p = &(*momenta)[4 * i];
       const std::array<double, 4> unit = {1.0, 0.0, 0.0, 0.0};
       const double* const q = orientations ? &(*orientations)[4 * i] : unit.data();
-      spins.push_back((p[1] * q[0] - p[0] * q[1] - p[2] * q[3] + p[3] * q[2]) / (2.0 * *moment));
-      spins.push_back((p[2] * q[0] - p[0] * q[2] - p[3] * q[1] + p[1] * q[3]) / (2.0 * *moment));
-      spins.push_back((p[3] * q[0] - p[0] * q[3] - p[1] * q[2] + p[2] * q[1]) / (2.0 * *moment));
+      const double twice = 2.0 * (*moments)[i];
+      spins.push_back((p[1] * q[0] - p[0] * q[1] - p[2] * q[3] + p[3] * q[2]) / twice);
+      spins.push_back((p[2] * q[0] - p[0] * q[2] - p[3] * q[1] + p[1] * q[3]) / twice);
+      spins.push_back((p[3] * q[0] - p[0] * q[3] - p[1] * q[2] + p[2] * q[1]) / twice);
     }
     frame.spins = vectors_of(exact_numbers(log, spins, chunk));
   }

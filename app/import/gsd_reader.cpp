@@ -137,4 +137,19 @@ std::optional<std::vector<double>> GsdReader::numbers(const std::string& name, s
   return as_doubles(bytes_at(chunk->place, rows * columns * gsd_number_size(type)), type);
 }
 
+std::vector<std::string> GsdReader::texts(const std::string& name, std::uint64_t frame) {
+  const Chunk* const chunk = find(name, frame);
+  if (!chunk) return {};
+  if (gsd_number_size(static_cast<GsdType>(chunk->type)) != 1) {
+    throw UserError({path_.string()}, "the chunk " + name + " has no texts",
+                    "give a GSD file whose chunks have the types of HOOMD-blue");
+  }
+  std::vector<std::string> texts;
+  for (std::uint64_t row = 0; row < chunk->rows; ++row) {
+    const std::string bytes = bytes_at(chunk->place + row * chunk->columns, chunk->columns);
+    texts.push_back(bytes.substr(0, bytes.find('\0')));
+  }
+  return texts;
+}
+
 }  // namespace clatter

@@ -25,6 +25,9 @@ class GsdReader {
   /// such chunk. Throws UserError if the chunk has another shape.
   std::optional<std::vector<double>> numbers(const std::string& name, std::uint64_t frame,
                                              std::uint64_t rows, std::uint64_t columns);
+  /// The texts in the rows of a chunk of a frame; empty: the frame has no such chunk. Throws
+  /// UserError if it has no bytes.
+  std::vector<std::string> texts(const std::string& name, std::uint64_t frame);
 
  private:
   struct Chunk {

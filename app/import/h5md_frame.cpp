@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +47,22 @@ void sort_by_id(ParticleFrame& frame, const std::vector<std::optional<double>>& 
   choose(frame.images, places);
   choose(frame.masses, places);
   choose(frame.diameters, places);
+  choose(frame.types, places);
+}
+
+// Reads the types of the particles, and their names if they are an enumeration.
+void read_types(ParticleFrame& frame, const H5mdReader& reader, std::size_t place,
+                const std::filesystem::path& path) {
+  for (const double number : reader.numbers("species", place)) {
+    if (!(std::fabs(number) <= std::numeric_limits<int>::max()) || number != std::floor(number)) {
+      throw UserError({path.string()}, "a species is " + number_text(number),
+                      "give whole numbers, or an enumeration");
+    }
+    frame.types.push_back(static_cast<int>(number));
+  }
+  const std::map<int, std::string> names = reader.species_names();
+  frame.mixture = !names.empty();
+  name_types(frame, names);
 }
 
 void read_box(ParticleFrame& frame, const H5mdReader& reader, std::size_t place) {
@@ -78,6 +96,7 @@ ParticleFrame h5md_frame(const std::filesystem::path& path, const FrameChoice& c
   }
   if (reader.has("mass")) frame.masses = reader.numbers("mass", place);
   if (reader.has("diameter")) frame.diameters = reader.numbers("diameter", place);
+  if (reader.has("species")) read_types(frame, reader, place, path);
   for (const std::string name : {"position", "mass", "diameter"}) {
     if (!reader.has(name) || !reader.is_single(name)) continue;
     frame.rounding = 2.0 * std::numeric_limits<float>::epsilon();

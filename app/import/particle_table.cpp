@@ -86,7 +86,8 @@ ParticleTable::Row ParticleTable::row(const TextLines& lines, const LineWords& w
   for (std::size_t k = 0; k < words.size(); ++k) {
     if (columns_[k] < kIgnored) row[columns_[k]] = lines.real(words[k]);
     if (columns_[k] == kReal) lines.real(words[k]);
-    if (columns_[k] == kWhole && !whole_number<long long>(words[k])) {
+    const bool no_type = columns_[k] == kType && !signed_number<int>(words[k]);
+    if (no_type || (columns_[k] == kWhole && !whole_number<long long>(words[k]))) {
       lines.refuse(quoted_start(words[k]) + " is no whole number",
                    "give every column a value of its kind");
     }
@@ -110,6 +111,7 @@ void ParticleTable::add(ParticleFrame& frame, const Row& row, int line) const {
   frame.images.push_back(vector(kImage));
   if (has(kVx)) frame.velocities.push_back(vector(kVx));
   if (has(kOmega) || has(kOmega + 1) || has(kOmega + 2)) frame.spins.push_back(vector(kOmega));
+  if (has(kType)) frame.types.push_back(static_cast<int>(row[kType]));
   if (has(kMass)) frame.masses.push_back(row[kMass]);
   if (has(kDiameter)) {
     frame.diameters.push_back(row[kDiameter]);
@@ -117,6 +119,13 @@ void ParticleTable::add(ParticleFrame& frame, const Row& row, int line) const {
     frame.diameters.push_back(2.0 * row[kRadius]);
   }
   frame.lines.push_back(line);
+}
+
+int type_of_name(std::vector<std::string>& names, std::string_view name) {
+  const auto known = std::ranges::find(names, name);
+  const auto number = static_cast<int>(known - names.begin());
+  if (known == names.end()) names.emplace_back(name);
+  return number;
 }
 
 void add_sorted(ParticleFrame& frame, const ParticleTable& table,

@@ -23,11 +23,13 @@ enum ParticleQuantity {
   kRadius = 24,
   kDiameter,
   kMass,
+  kType,  ///< a whole number
   kId,
   kTime,
   kIgnored,  ///< any word
   kWhole,    ///< a whole number that no quantity follows from
-  kReal      ///< a number that no quantity follows from
+  kReal,     ///< a number that no quantity follows from
+  kName      ///< the name of a type, which the reader of the file numbers
 };
 
 /// A table of particles in a text file: the meaning of its columns, and quantities that its reader
@@ -70,6 +72,9 @@ class ParticleTable {
   std::vector<int> derived_;
   std::vector<std::string> words_;  // names of the columns; empty: none
 };
+
+/// The number of the type of a name. New names are added.
+int type_of_name(std::vector<std::string>& names, std::string_view name);
 
 /// A particle of a table, and the number of its line.
 struct ParticleLine {

@@ -9,6 +9,7 @@
 #include "app/import/particle_table.h"
 #include "app/import/text_frames.h"
 #include "app/import/xyz_head.h"
+#include "engine/laws/limits.h"
 #include "engine/text.h"
 #include "engine/whole_number.h"
 
@@ -31,7 +32,7 @@ int quantity_of(const std::string& name) {
       {"velocity", kVx},  {"velocities", kVx},     {"momenta", kMomentum},
       {"omega", kOmega},  {"map_shift", kImage},   {"radius", kRadius},
       {"radii", kRadius}, {"diameter", kDiameter}, {"diameters", kDiameter},
-      {"mass", kMass},    {"masses", kMass}};
+      {"mass", kMass},    {"masses", kMass},       {"type", kType}};
   std::string lower = name;
   std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
   const auto found = kNames.find(lower);
@@ -71,7 +72,9 @@ std::vector<XyzProperty> properties_of(const TextLines& lines, const XyzHead& he
   for (std::size_t k = 0; k < parts.size(); k += 3) {
     const std::string& name = parts[k];
     const std::string said = "the property " + quoted_start(name);
-    const int quantity = quantity_of(name);
+    const std::string& type = parts[k + 1];
+    int quantity = quantity_of(name);
+    if (quantity == kType && type != "I") quantity = kIgnored;  // names of types
     if (name.empty()) lines.refuse("a property has no name", "write NAME:TYPE:COLUMNS");
     const int columns = width_of(lines, quantity, said, parts[k + 2]);
     if (columns > kMostColumns - all_columns) {
@@ -79,7 +82,6 @@ std::vector<XyzProperty> properties_of(const TextLines& lines, const XyzHead& he
                    "remove some of them");
     }
     all_columns += columns;
-    const std::string& type = parts[k + 1];
     if (type.size() != 1 || std::string("SIRL").find(type) == std::string::npos) {
       lines.refuse(said + " has the type " + quoted_start(type), "give S, I, R or L");
     }
@@ -116,7 +118,9 @@ class XyzFrames {
     for (std::size_t i = 0; i < particles; ++i) {
       lines_.require_next();
       table.add(frame, row(table), lines_.number());
+      if (!table.has(kType)) add_symbol(frame);
     }
+    set_names(head, table, frame);
     frame.dimension = dimension_of(frame, choice_, path_);
     move_corner(frame, corner);
     return frame;
@@ -167,6 +171,40 @@ class XyzFrames {
     return table;
   }
 
+  // Adds the type of the particle of the present line: its symbol.
+  void add_symbol(ParticleFrame& frame) const {
+    const std::optional<std::size_t> column = symbol_column();
+    if (!column || frame.names.size() > kMaxSpecies) return;
+    frame.types.push_back(type_of_name(frame.names, lines_.words()[*column]));
+  }
+
+  // The names of types are those of the file, or the symbols. A single symbol, or very many, are no
+  // types.
+  void set_names(const XyzHead& head, const ParticleTable& table, ParticleFrame& frame) const {
+    if (!table.has(kType)) {
+      if (frame.names.size() > 1 && frame.names.size() <= kMaxSpecies) return;
+      frame.types.clear();
+      frame.names.clear();
+      return;
+    }
+    std::map<int, std::string> names;
+    for (const std::string& name : head.words("type_names")) {
+      names.emplace(static_cast<int>(names.size()) + 1, name);
+    }
+    frame.mixture = head.has("type_names");
+    name_types(frame, names);
+  }
+
+  // The column of symbols; absent: there is none.
+  std::optional<std::size_t> symbol_column() const {
+    std::size_t column = 0;
+    for (const XyzProperty& property : properties_) {
+      if (property.name == "species") return column;
+      column += static_cast<std::size_t>(property.columns);
+    }
+    return std::nullopt;
+  }
+
   // The values of the present line. Velocities follow from momenta and masses.
   ParticleTable::Row row(const ParticleTable& table) const {
     const LineWords words = lines_.words();
@@ -180,11 +218,8 @@ class XyzFrames {
 
   // ASE writes no masses of elements. Its X, which is no element, has the mass 1.
   double mass_of_species(const LineWords& words) const {
-    std::size_t column = 0;
-    for (const XyzProperty& property : properties_) {
-      if (property.name == "species" && words[column] == "X") return 1.0;
-      column += static_cast<std::size_t>(property.columns);
-    }
+    const std::optional<std::size_t> column = symbol_column();
+    if (column && words[*column] == "X") return 1.0;
     lines_.refuse("momenta need masses", "give the property masses, or velocities");
   }
 

@@ -9,8 +9,8 @@ namespace clatter {
 
 static constexpr std::string_view kBlanks = " \t";
 // Others are skipped.
-static constexpr std::array<std::string_view, 5> kKeys = {"lattice", "origin", "pbc", "properties",
-                                                          "time"};
+static constexpr std::array<std::string_view, 6> kKeys = {"lattice",    "origin", "pbc",
+                                                          "properties", "time",   "type_names"};
 
 static std::string lower_case(std::string text) {
   for (char& letter : text) {

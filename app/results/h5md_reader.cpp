@@ -1,6 +1,7 @@
 #include "app/results/h5md_reader.h"
 
 #include <algorithm>
+#include <cstring>
 #include <functional>
 #include <type_traits>
 
@@ -77,7 +78,8 @@ bool has_numbers(const H5::DataSet& dataset) {
 
 // Elements of one row that hold for all frames: properties of particles, and the box.
 bool is_constant(const std::string& element) {
-  return element == "mass" || element == "diameter" || element == "box/edges";
+  return element == "mass" || element == "diameter" || element == "species" ||
+         element == "box/edges";
 }
 
 }  // namespace
@@ -193,7 +195,8 @@ H5::DataSet H5mdReader::values_of(const std::string& element) const {
 
 // Throws unless a dataset has integers, or numbers of IEEE 754.
 void H5mdReader::require_numbers(const H5::DataSet& dataset, const std::string& name) const {
-  if (has_numbers(dataset)) return;
+  const bool names_types = name == "species" && dataset.getTypeClass() == H5T_ENUM;
+  if (names_types || has_numbers(dataset)) return;
   refuse("the quantity " + in_quotes(name) + " has no numbers of IEEE 754",
          "give integers or numbers of single or double precision");
 }
@@ -346,6 +349,29 @@ std::vector<double> H5mdReader::numbers(const std::string& name, std::size_t fra
              "give as many numbers as positions");
     }
     return numbers;
+  });
+}
+
+std::map<int, std::string> H5mdReader::species_names() const {
+  return checked([&] {
+    std::map<int, std::string> names;
+    const H5::DataSet values = values_of("species");
+    if (values.getTypeClass() != H5T_ENUM) return names;
+    const H5::EnumType type = values.getEnumType();
+    // A value has the integer type of the enumeration, and is converted in place.
+    const H5::DataType integer = type.getSuper();
+    for (int k = 0; k < type.getNmembers(); ++k) {
+      std::vector<char> value(std::max(integer.getSize(), sizeof(int)));
+      type.getMemberValue(static_cast<unsigned>(k), value.data());
+      integer.convert(H5::PredType::NATIVE_INT, 1, value.data(), nullptr);
+      int number = 0;
+      std::memcpy(&number, value.data(), sizeof(number));
+      char* const name = H5Tget_member_name(type.getId(), static_cast<unsigned>(k));
+      if (name == nullptr) continue;
+      names[number] = name;
+      H5free_memory(name);
+    }
+    return names;
   });
 }
 

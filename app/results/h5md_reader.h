@@ -38,6 +38,8 @@ class H5mdReader {
   std::vector<double> vectors(const std::string& name, std::size_t frame) const;
   /// A number of each particle.
   std::vector<double> numbers(const std::string& name, std::size_t frame) const;
+  /// The names of the types in the quantity species, by number; empty: it has no names.
+  std::map<int, std::string> species_names() const;
   /// The identifiers of all particles of a frame; absent: a place without a particle.
   std::vector<std::optional<double>> ids(std::size_t frame) const;
   /// Throws unless the box has as many dimensions as the positions have components.

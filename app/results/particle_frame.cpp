@@ -23,6 +23,12 @@ double largest_component(const std::vector<Vector>& vectors) {
 
 }  // namespace
 
+double ParticleFrame::largest_diameter() const {
+  double largest = grains.empty() ? 1.0 : 0.0;
+  for (const Grain& grain : grains) largest = std::max(largest, 2.0 * grain.radius);
+  return largest;
+}
+
 std::vector<Vector> vectors_of(const std::vector<double>& numbers, std::size_t components) {
   std::vector<Vector> vectors(numbers.size() / components);
   for (std::size_t k = 0; k < numbers.size(); ++k) {
@@ -69,6 +75,18 @@ void move_corner(ParticleFrame& frame, const Vector& corner) {
   for (Vector& velocity : frame.velocities) {
     if (frame.dimension == 2) velocity[2] = 0.0;
   }
+}
+
+void name_types(ParticleFrame& frame, const std::map<int, std::string>& names) {
+  std::map<int, int> places;
+  for (const int type : frame.types) places[type] = 0;
+  frame.names.clear();
+  for (auto& [type, place] : places) {
+    const auto name = names.find(type);
+    place = static_cast<int>(frame.names.size());
+    frame.names.push_back(name == names.end() ? "type" + std::to_string(type) : name->second);
+  }
+  for (int& type : frame.types) type = places.at(type);
 }
 
 long step_of(double number) {

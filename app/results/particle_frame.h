@@ -3,9 +3,13 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "engine/physics/grain.h"
+#include "engine/scene/species.h"
 
 namespace clatter {
 
@@ -24,16 +28,27 @@ struct ParticleFrame {
   long number = 0;                 ///< in the run that wrote the file
   double time = 0.0;               ///< 0 if the file has no times
   std::optional<ParticleBox> box;  ///< absent in CSV
-  std::optional<double> inertia;   ///< q = 4I/(m a^2), if the file has it
+  std::optional<double> inertia;   ///< q = 4I/(m a^2) of particles that are alike, if known
   double rounding = 1e-9;          ///< relative error of the file's numbers that is accepted
   std::vector<Vector> positions;   ///< [N] relative to the lower corner of the box
   std::vector<Vector> velocities;  ///< [N] empty: the file has none
   std::vector<Vector> spins;       ///< [N] angular velocities; empty: none
   std::vector<Vector> images;      ///< [N] periodic images
-  std::vector<double> masses;      ///< [N] equal; empty: the file has none
-  std::vector<double> diameters;   ///< [N] equal; empty: the file has none
+  std::vector<double> masses;      ///< [N] empty: the file has none
+  std::vector<double> diameters;   ///< [N] empty: the file has none
+  std::vector<double> inertias;    ///< [N] q of each particle; empty: the file has none
+  std::vector<int> types;          ///< [N] numbers of types; empty: the file has none
+  std::vector<std::string> names;  ///< of the types, by number
+  bool mixture = false;            ///< whether the file says that its particles have species
   std::vector<int> lines;          ///< [N] places in a text file; empty: a binary file
   std::vector<double> ids;         ///< [N] identifiers in a binary file; empty: none
+
+  // The species that read_frame() makes of masses, diameters, inertias and types.
+  std::vector<Species> species;  ///< empty: the particles are alike, of diameter and mass 1
+  std::vector<Grain> grains;     ///< [N] of a mixture, otherwise empty
+
+  /// Diameter of the largest particle; 1 if all are alike.
+  double largest_diameter() const;
 };
 
 template <class Archive>
@@ -42,12 +57,13 @@ void visit(Archive& io, ParticleBox& box) {
   io(lengths, periodic, lines);
 }
 
+/// A frame as its reader leaves it: before the species are known.
 template <class Archive>
 void visit(Archive& io, ParticleFrame& frame) {
   auto& [dimension, number, time, box, inertia, rounding, positions, velocities, spins, images,
-         masses, diameters, lines, ids] = frame;
+         masses, diameters, inertias, types, names, mixture, lines, ids, species, grains] = frame;
   io(dimension, number, time, box, inertia, rounding, positions, velocities, spins, images, masses,
-     diameters, lines, ids);
+     diameters, inertias, types, names, mixture, lines, ids);
 }
 
 /// Which particles of a file are wanted, and how.
@@ -75,6 +91,10 @@ int dimension_of(const ParticleFrame& frame, const FrameChoice& choice,
 
 /// Moves the lower corner of the box to 0, and disks to z = 0.
 void move_corner(ParticleFrame& frame, const ParticleFrame::Vector& corner);
+
+/// Numbers the types of a frame anew, from 0 on, and gives them names: that of `names` for a number
+/// there, otherwise type and the number, as in type2.
+void name_types(ParticleFrame& frame, const std::map<int, std::string>& names = {});
 
 /// The number of a frame in the run that wrote it, from the number in a file; 0 if that has no
 /// meaning.
