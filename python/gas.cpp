@@ -206,7 +206,12 @@ EventTable collisions_of(ScheduledRun<D>& run, std::uint64_t count, const StopRe
   const bool spins = run.simulation().model().spins;
   Collisions<D> collisions(run.simulation(), spins);
   run_for(run, count, stop);
-  return {event_quantities(D, spins), std::move(collisions.records)};
+  EventTable table{event_quantities(D, spins), std::move(collisions.records)};
+  const Simulation<D>& simulation = run.simulation();
+  for (std::uint32_t i = 0; simulation.is_mixture() && i < simulation.particles().size(); ++i) {
+    table.species.push_back(simulation.grain(i).species);
+  }
+  return table;
 }
 
 template <int D>

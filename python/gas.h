@@ -26,7 +26,8 @@ namespace clatter {
 /// Collisions in order of time, as in an event log.
 struct EventTable {
   std::vector<EventQuantity> quantities;
-  std::vector<double> records;  ///< [events][record_size(quantities)]
+  std::vector<double> records;              ///< [events][record_size(quantities)]
+  std::vector<std::uint32_t> species = {};  ///< [N] numbers of a mixture; empty: all are alike
 };
 
 /// A gas of disks or spheres for a notebook: a run of a scene, with its measurements and pictures.
@@ -54,6 +55,9 @@ class Gas {
   std::uint64_t seed() const { return seed_; }
   /// The scene at the start, with all changes of laws, as JSON.
   std::string scene_json();
+
+  /// The names of the species of the scene; empty: the particles are alike.
+  std::vector<std::string> species() const { return names_of(started_.species); }
 
   /// Runs to a simulation time at or after time(). The scene's changes of laws happen. Throws
   /// UserError for an earlier or infinite time, PhysicalStop and Interrupted.

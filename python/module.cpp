@@ -88,6 +88,45 @@ py::object spins(Gas& gas) {
       gas.state());
 }
 
+// A number of each particle, of its grain; `alike` if the particles are alike.
+template <class Value>
+py::array_t<double> numbers_of(Gas& gas, double alike, const Value& value) {
+  return std::visit(
+      [&](const auto& state) {
+        std::vector<double> numbers(state.positions.size(), alike);
+        std::ranges::transform(state.grains, numbers.begin(), value);
+        return py::array_t<double>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
+      },
+      gas.state());
+}
+
+py::array_t<double> diameters(Gas& gas) {
+  return numbers_of(gas, 1.0, [](const Grain& grain) { return 2.0 * grain.radius; });
+}
+
+py::array_t<double> masses(Gas& gas) {
+  return numbers_of(gas, 1.0, [](const Grain& grain) { return grain.mass; });
+}
+
+// The elements of a list of names at places, as an array of text.
+py::object names_at(const std::vector<std::string>& names,
+                    const py::array_t<std::int64_t>& places) {
+  return py::module_::import("numpy").attr("array")(names, "dtype"_a = "U")[places];
+}
+
+py::object species(Gas& gas) {
+  const std::vector<std::string> names = gas.species();
+  if (names.empty()) return py::none();
+  return std::visit(
+      [&](const auto& state) {
+        std::vector<std::int64_t> places;
+        for (const Grain& grain : state.grains) places.push_back(grain.species);
+        return names_at(names, py::array_t<std::int64_t>(static_cast<py::ssize_t>(places.size()),
+                                                         places.data()));
+      },
+      gas.state());
+}
+
 // Raises an error with its words. Bytes of file names that are no text become surrogates, as in
 // os.fsdecode.
 void raise(const char* type, const std::exception& error) {
@@ -146,6 +185,24 @@ py::object measure_gas(Gas& gas, const std::optional<double>& duration) {
       without_gil([&](const StopRequest& stop) { return gas.measure(duration, stop); }));
 }
 
+// The names of the species of the particles whose numbers are at a place of the records. The wall
+// has none.
+py::object names_of_particles(const EventTable& table, std::vector<std::string> names,
+                              std::size_t place) {
+  const auto wall = static_cast<std::int64_t>(names.size());
+  names.emplace_back();
+  std::vector<std::int64_t> places;
+  const std::size_t size = record_size(table.quantities);
+  for (std::size_t k = place; k < table.records.size(); k += size) {
+    const double particle = table.records[k];
+    places.push_back(particle < 0.0 ? wall : table.species[static_cast<std::size_t>(particle)]);
+  }
+  return names_at(
+      names, py::array_t<std::int64_t>(static_cast<py::ssize_t>(places.size()), places.data()));
+}
+
+constexpr std::size_t kParticlePlace = 2;  // of the number in a record; the partner follows
+
 // A structured array with a field of each quantity, or of each of its components if it is flat.
 py::object events(Gas& gas, long count, bool flat) {
   const EventTable table =
@@ -164,6 +221,14 @@ py::object events(Gas& gas, long count, bool flat) {
     const py::tuple vector = py::make_tuple(name, type, py::make_tuple(components.size()));
     fields.append(scalar ? py::tuple(py::make_tuple(name, type)) : vector);
   }
+  const std::vector<std::string> names = gas.species();
+  for (const char* field : {"species", "partner_species"}) {
+    if (names.empty()) break;
+    const auto longest = std::ranges::max(names, {}, &std::string::size).size();
+    const py::tuple texts = py::make_tuple(field, "U" + std::to_string(longest));
+    fields.append(texts);
+    columns.append(texts);
+  }
   py::object array = py::module_::import("numpy").attr("empty")(rows, "dtype"_a = fields);
   py::ssize_t place = 0;
   for (const auto& [name, unit, components, whole] : table.quantities) {
@@ -174,6 +239,10 @@ py::object events(Gas& gas, long count, bool flat) {
         scalar ? py::object(py::int_(place)) : py::object(py::slice(place, place + width, 1));
     array[py::str(name)] = numbers[py::make_tuple(all, part)];
     place += width;
+  }
+  if (!names.empty()) {
+    array["species"] = names_of_particles(table, names, kParticlePlace);
+    array["partner_species"] = names_of_particles(table, names, kParticlePlace + 1);
   }
   return flat ? array.attr("view")(columns) : array;
 }
@@ -268,6 +337,16 @@ PYBIND11_MODULE(clatter, module) {
                              "Angular velocities now, in radians per unit of time: a copy, (N,) "
                              "float64 for disks and (N, 3) for spheres. None if particles do not "
                              "spin.")
+      .def_property_readonly("diameters", diameters,
+                             "Diameters of the particles: a copy, (N,) float64. All are 1 without "
+                             "species.")
+      .def_property_readonly("masses", masses,
+                             "Masses of the particles: a copy, (N,) float64. All are 1 without "
+                             "species.")
+      .def_property_readonly("species", species,
+                             "Names of the species of the particles: a copy, (N,) text, so that "
+                             "gas.positions[gas.species == \"large\"] are those of one species. "
+                             "None without species.")
       .def("run_until", run_until, "time"_a,
            "Runs to a simulation time, with the [[change]] tables of the scene.\n\n"
            "Ctrl-C halts it within about 0.1 s with KeyboardInterrupt. The gas then is at a time "
@@ -292,7 +371,8 @@ PYBIND11_MODULE(clatter, module) {
            "Runs the gas on for n collisions of particles and with walls. Returns them as a "
            "structured array, (n,): the quantities of an event log, described in "
            "docs/results.md. Vectors are fields with D components, or D fields with the names of "
-           "the CSV columns if `flat`, as pandas.DataFrame needs.\n\n"
+           "the CSV columns if `flat`, as pandas.DataFrame needs. With species there are also the "
+           "fields species and partner_species: names, empty for a wall.\n\n"
            "Afterwards the gas is at the time of the last of them. Raises PhysicalStop, SceneError "
            "for n < 1, and RunError if no more collisions occur. These, and Ctrl-C, lose the "
            "collisions and keep the gas.")

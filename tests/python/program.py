@@ -6,6 +6,8 @@ import subprocess
 import tempfile
 from pathlib import Path
 
+import numpy as np
+
 # Rough disks in oblique gravity that changes, and a moving wall.
 DISKS = {
     "title": "T",
@@ -29,6 +31,47 @@ measure = { burn_in = 1.0, duration = 20.0, fields = ["density", "temperature"] 
 [[change]]
 time = 3.3
 set = { "gravity.acceleration" = [0.3, 0.1] }
+"""
+# Disks of two species. Those of the second have unequal diameters.
+MIXTURE = {
+    "title": "M",
+    "box": {"size": np.array([14.0, 9.0])},
+    "particles": {"restitution": 0.9},
+    "species": [
+        {"name": "small", "count": 12, "diameter": 0.5, "mass": 0.2, "colour": "#c03030"},
+        {
+            "name": "large", "count": 4, "diameter": 2.0, "mass": 6.0,
+            "polydispersity": {"kind": "uniform", "width": 0.2},
+        },
+    ],
+    "pair": [{"species": ["small", "large"], "restitution": 0.8}],
+    "walls": {
+        "left": {"kind": "driven", "drive_speed": 1.0},
+        "right": {"kind": "static", "species": {"large": {"restitution": 0.7}}},
+    },
+    "measure": {"burn_in": 0.0, "duration": 5.0},
+}
+MIXTURE_TOML = """title = "M"
+box.size = [14, 9]
+particles.restitution = 0.9
+measure = { burn_in = 0.0, duration = 5.0 }
+walls.left = { kind = "driven", drive_speed = 1.0 }
+walls.right = { kind = "static", species.large.restitution = 0.7 }
+[[species]]
+name = "small"
+count = 12
+diameter = 0.5
+mass = 0.2
+colour = "#c03030"
+[[species]]
+name = "large"
+count = 4
+diameter = 2.0
+mass = 6.0
+polydispersity = { kind = "uniform", width = 0.2 }
+[[pair]]
+species = ["small", "large"]
+restitution = 0.8
 """
 # Rough spheres between a wall that moves and a wall at rest.
 SPHERES_TOML = """title = "T"

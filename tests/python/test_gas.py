@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import clatter
-from program import DISKS, DISKS_TOML, SPHERES_TOML, Folder
+from program import DISKS, DISKS_TOML, MIXTURE, MIXTURE_TOML, SPHERES_TOML, Folder
 
 
 class Runs(unittest.TestCase):
@@ -44,6 +44,46 @@ class Runs(unittest.TestCase):
         gas.run_until(2000.0)
         result = gas.measure(duration=0.125)
         self.assertEqual(result["time"]["measured"], 0.125)
+
+    def test_a_mixture_has_the_particles_of_the_program(self):
+        path = self.folder.write("s.toml", MIXTURE_TOML)
+        self.folder.measure(path, "--until", 3, "--save-state", "end.csv", "--events", "e.csv")
+        with open(Path(self.folder.name, "end.csv"), encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        gas = clatter.load(MIXTURE)
+        gas.run_until(3.0)
+        self.assertEqual(gas.species.tolist(), [row["species"] for row in rows])
+        self.assertEqual(gas.diameters.tolist(), [float(row["diameter"]) for row in rows])
+        self.assertEqual(gas.masses.tolist(), [float(row["mass"]) for row in rows])
+        self.assertEqual(gas.positions[:, 0].tolist(), [float(row["x"]) for row in rows])
+        # By hand: diameters at the shares 1/8, 3/8, 5/8, 7/8, and masses 6 (d/2)^2.
+        large = gas.species == "large"
+        np.testing.assert_allclose(np.sort(gas.diameters[large]), [1.7, 1.9, 2.1, 2.3], rtol=1e-14)
+        np.testing.assert_allclose(gas.masses[large], 1.5 * gas.diameters[large] ** 2, rtol=1e-14)
+        self.assertEqual(gas.masses[~large].tolist(), [0.2] * 12)
+        self.assertEqual(gas.species.dtype.kind, "U")
+        again = pickle.loads(pickle.dumps(gas))
+        self.assertEqual(again.species.tolist(), gas.species.tolist())
+
+    def test_events_of_a_mixture_have_names(self):
+        gas = clatter.load(MIXTURE)
+        for flat in (False, True):
+            events = gas.events(200, flat=flat)
+            self.assertEqual(events.dtype.names[-2:], ("species", "partner_species"))
+            species = gas.species.tolist() + [""]  # of a wall, whose number is -1
+            self.assertEqual(events["species"].tolist(), [species[k] for k in events["particle"]])
+            self.assertEqual(
+                events["partner_species"].tolist(), [species[k] for k in events["partner"]]
+            )
+            self.assertEqual(set(events["partner_species"]), {"small", "large", ""})
+
+    def test_particles_without_species_have_the_diameter_and_mass_1(self):
+        gas = clatter.load(DISKS)
+        self.assertEqual(gas.diameters.tolist(), [1.0] * 7)
+        self.assertEqual(gas.masses.tolist(), [1.0] * 7)
+        self.assertEqual(gas.masses.dtype, np.float64)
+        self.assertIsNone(gas.species)
+        self.assertNotIn("species", gas.events(5).dtype.names)
 
     def test_a_path_a_dict_and_keywords_describe_the_same_gas(self):
         path = self.folder.write("s.toml", DISKS_TOML)
