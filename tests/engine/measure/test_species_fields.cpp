@@ -14,8 +14,9 @@
 #include "tests/engine/measure/scenes.h"
 #include "tests/support/dimensions.h"
 
-using namespace clatter;
-using namespace clatter::testing;
+namespace clatter::species_fields {
+
+using namespace testing;
 
 namespace {
 
@@ -237,3 +238,5 @@ TEST_CASE(
   residuals.equations = {{0.0}, {0.0}, {0.0}, {0.0}};
   CHECK_THROWS_AS(require_closed(residuals), RunError);
 }
+
+}  // namespace clatter::species_fields

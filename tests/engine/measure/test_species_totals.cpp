@@ -12,8 +12,9 @@
 #include "tests/engine/measure/scenes.h"
 #include "tests/support/dimensions.h"
 
-using namespace clatter;
-using namespace clatter::testing;
+namespace clatter::species_totals {
+
+using namespace testing;
 
 namespace {
 
@@ -273,3 +274,5 @@ TEST_CASE("Measurement: particles that are alike have no results of species") {
   CHECK(result.species.empty());
   CHECK(result.pairs.empty());
 }
+
+}  // namespace clatter::species_totals

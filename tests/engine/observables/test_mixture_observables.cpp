@@ -13,8 +13,9 @@
 #include "tests/engine/observables/observed.h"
 #include "tests/engine/support/gas.h"
 
-using namespace clatter;
-using namespace clatter::testing;
+namespace clatter::mixture_observables {
+
+using namespace testing;
 
 namespace {
 
@@ -369,3 +370,5 @@ TEST_CASE("Mixture observables: structure factors of each two species") {
   const double found = at("S_1+1", first);
   CHECK(std::min(std::fabs(found - own(0)), std::fabs(found - own(1))) < 1e-10);
 }
+
+}  // namespace clatter::mixture_observables

@@ -12,8 +12,9 @@
 #include "tests/support/dimensions.h"
 #include "tests/support/statistics.h"
 
-using namespace clatter;
-using namespace clatter::testing;
+namespace clatter::mixture_theory {
+
+using namespace testing;
 
 namespace {
 
@@ -257,3 +258,5 @@ TEST_CASE("Mixture theory: Z of polydisperse disks") {
   gas.volume = gas.packing_fraction() / 0.4;
   CHECK(gas.compressibility() == doctest::Approx(2.7436).epsilon(3e-4));
 }
+
+}  // namespace clatter::mixture_theory
