@@ -194,6 +194,7 @@ TEST_CASE("Species totals: temperatures and mean positions are exact time averag
   Scene scene = rough_mixture(24);
   scene.gravity = Vec2(0.3, -0.7);
   scene.bulk_drive = BulkDrive{.interval = 0.7, .kick_speed = 0.2};
+  scene.contact_time = 0.01;
   const std::vector<double> ends = {0.4, 12.0, 90.0};
   const auto simulation = run_of(scene, 17, true);
   SpeciesTotals<2> species(*simulation);

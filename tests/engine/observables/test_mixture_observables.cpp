@@ -110,8 +110,8 @@ TEST_CASE("Mixture observables: bonds are between particles near contact") {
   CHECK(mean_of(result, "bond_order.local").mean == doctest::Approx(1.0).epsilon(1e-12));
 }
 
-// In equilibrium every component is Gaussian for each mass. 2000 samples of 12 particles of masses
-// 1, 0.5 and 30, so that the heavy ones have 96 % of the mass; 5 standard errors.
+// In equilibrium every component is Gaussian for each mass. 4000 samples of 12 particles of masses
+// 1, 0.5 and 6, so that the heavy ones have 80 % of the mass; 5 standard errors.
 TEST_CASE_TEMPLATE("Mixture observables: an elastic gas has the moments of Gaussian velocities",
                    Dimension, Plane, Space) {
   constexpr int D = Dimension::value;
@@ -119,12 +119,12 @@ TEST_CASE_TEMPLATE("Mixture observables: an elastic gas has the moments of Gauss
   std::vector<Grain> grains(12);
   for (std::size_t i = 0; i < grains.size(); ++i) {
     if (i % 3 == 1) grains[i] = {.radius = 0.4, .mass = 0.5, .species = 1};
-    if (i % 3 == 2) grains[i] = {.radius = 0.45, .mass = 30.0, .species = 2};
+    if (i % 3 == 2) grains[i] = {.radius = 0.45, .mass = 6.0, .species = 2};
   }
   Measure measure;
   measure.velocity_distribution.interval = 2.0;
   const Measured result = measured_of(model, mixture_state<D>(model, grains, 1.0, 72),
-                                      ObservableKind::VelocityDistribution, 4000.0, measure);
+                                      ObservableKind::VelocityDistribution, 8000.0, measure);
   const auto check = [&](const char* name, double value, double precision) {
     const Estimate found = mean_of(result, std::string("velocity_distribution.") + name);
     CAPTURE(name);
@@ -132,10 +132,10 @@ TEST_CASE_TEMPLATE("Mixture observables: an elastic gas has the moments of Gauss
     CHECK(found.standard_error < precision);
     CHECK(std::fabs(found.mean - value) < 5.0 * found.standard_error);
   };
-  check("second_moment_x", 1.0, 0.02);
-  check("fourth_moment_x", 3.0, 0.1);
-  check("a2", 0.0, 0.02);
-  check("a3", 0.0, 0.03);
+  check("second_moment_x", 1.0, 0.03);
+  check("fourth_moment_x", 3.0, 0.15);
+  check("a2", 0.0, 0.03);
+  check("a3", 0.0, 0.05);
 }
 
 // Spins of a rough elastic gas: those of all moments of inertia are Gaussian in units of their own
@@ -222,8 +222,8 @@ TEST_CASE_TEMPLATE("Mixture observables: g of each two species counts their pair
   }
 }
 
-// 100 and 50 disks of diameters 1 and 2 at an area fraction of 0.4; 600 samples. The contact values
-// of theory are right within 2 %; standard errors below 1.5 %, width 5 of them and 2 %.
+// 100 and 50 disks of diameters 1 and 2 at an area fraction of 0.4; 2400 samples. The contact
+// values of theory are right within 2 %; standard errors below 3 %, width 4 of them and 2 %.
 TEST_CASE("Mixture observables: g at contact is that of theory") {
   Model<2> model;
   model.box.setConstant(std::sqrt(300.0 * std::numbers::pi / 4.0 / 0.4));
@@ -237,8 +237,10 @@ TEST_CASE("Mixture observables: g at contact is that of theory") {
   theory.components = {{.species = 0, .count = 100.0},
                        {.species = 1, .count = 50.0, .diameter = 2.0, .mass = 4.0}};
   theory.contacts.assign(4, {});
+  Measure measure;
+  measure.radial_distribution.interval = 0.25;
   const Measured result = measured_of(model, mixture_state<2>(model, grains, 1.0, 75),
-                                      ObservableKind::RadialDistribution, 600.0);
+                                      ObservableKind::RadialDistribution, 600.0, measure);
   const std::array<std::pair<const char*, std::array<double, 2>>, 3> pairs = {
       {{"0+0", {1.0, 1.0}}, {"0+1", {1.0, 2.0}}, {"1+1", {2.0, 2.0}}}};
   for (const auto& [name, diameters] : pairs) {
@@ -247,8 +249,8 @@ TEST_CASE("Mixture observables: g at contact is that of theory") {
     const double chi = theory.contact_correlation(diameters[0], diameters[1]);
     CAPTURE(found.mean);
     CAPTURE(chi);
-    CHECK(found.standard_error < 0.015 * chi);
-    CHECK(std::fabs(found.mean - chi) < 5.0 * found.standard_error + 0.02 * chi);
+    CHECK(found.standard_error < 0.03 * chi);
+    CHECK(std::fabs(found.mean - chi) < 4.0 * found.standard_error + 0.02 * chi);
   }
 }
 
