@@ -375,6 +375,16 @@ static Estimate kurtosis_excess(const std::vector<WindowTotals<D>>& windows, int
   return linear_estimate(m4 / (3.0 * m2 * m2) - 1.0, fourth);
 }
 
+// [S] numbers of the particles of each species.
+template <int D>
+static std::vector<std::size_t> species_counts(const Simulation<D>& simulation) {
+  std::vector<std::size_t> counts(simulation.model().species->count());
+  for (std::uint32_t i = 0; i < simulation.particles().size(); ++i) {
+    ++counts[simulation.grain(i).species];
+  }
+  return counts;
+}
+
 template <int D>
 Measured Measurement<D>::means() const {
   const Model<D>& model = simulation_.model();
@@ -439,9 +449,10 @@ Measured Measurement<D>::means() const {
     measured.pressure[side] =
         estimate([&](const auto& w) { return w.wall_impulse[side] / (w.duration * area); });
   }
-  if (species_) {
-    measured.species = species_means<D>(species_windows_, model, species_->counts());
-    measured.pairs = pair_means<D>(species_windows_, model, species_->counts());
+  if (model.species) {
+    const std::vector<std::size_t> counts = species_counts(simulation_);
+    measured.species = species_means<D>(species_windows_, model, counts);
+    measured.pairs = pair_means<D>(species_windows_, model, counts);
   }
   const bool walled = std::ranges::any_of(model.walls, [](const auto& wall) { return !!wall; });
   if (!walled && count >= 2.0) {

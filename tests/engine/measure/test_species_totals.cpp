@@ -228,6 +228,8 @@ TEST_CASE("Measurement: the results of species add up to those of the gas") {
   measure.burn_in = 3.0;
   measure.duration = 40.0;
   Measurement<2> measurement(*simulation, measure, 43.0);
+  CHECK(measurement.means().species.size() == kSpecies);  // before the averages start
+  CHECK(measurement.means().pairs.size() == 6);
   simulation->run_until(43.0);
   const Measured result = measurement.result();
   REQUIRE(result.species.size() == kSpeciesOfTotals);
