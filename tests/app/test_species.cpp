@@ -15,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* kScene = R"(
+constexpr const char* kMixScene = R"(
 schema = 1
 box.size = [12, 9]
 [particles]
@@ -43,15 +43,15 @@ fields = ["density", "temperature", "balance"]
 cells = [4, 3]
 )";
 
-json measured(const Shell& shell, const std::string& options = {}) {
-  shell.write("mix.toml", kScene);
+json mix_result(const Shell& shell, const std::string& options = {}) {
+  shell.write("mix.toml", kMixScene);
   const Outcome outcome = shell.run("clatter measure mix.toml --quiet " + options);
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
   return json::parse(outcome.out);
 }
 
-double mean(const json& estimate) {
+double mean_in(const json& estimate) {
   return estimate.at("mean");
 }
 
@@ -59,7 +59,7 @@ double mean(const json& estimate) {
 
 TEST_CASE("Species: a result has each species and each pair, and they add up") {
   const Shell shell;
-  const json result = measured(shell);
+  const json result = mix_result(shell);
   const json& species = result.at("species");
   REQUIRE(species.size() == 2);
   CHECK(species[0].at("name") == "small");
@@ -68,33 +68,33 @@ TEST_CASE("Species: a result has each species and each pair, and they add up") {
   CHECK(species[1].at("count") == 8);
   CHECK(species[0].at("mean_position").size() == 2);
   CHECK(species[0].at("mean_position")[1].is_null());
-  CHECK(mean(species[1].at("mean_position")[0]) > 1.0);
+  CHECK(mean_in(species[1].at("mean_position")[0]) > 1.0);
   CHECK_FALSE(species[0].contains("spin_temperature"));
   CHECK_FALSE(species[0].contains("bulk_in"));
   for (const char* key : {"temperature", "temperature_x", "temperature_y"}) {
     CAPTURE(key);
-    CHECK((30.0 * mean(species[0].at(key)) + 8.0 * mean(species[1].at(key))) / 38.0 ==
-          doctest::Approx(mean(result.at(key))).epsilon(1e-12));
+    CHECK((30.0 * mean_in(species[0].at(key)) + 8.0 * mean_in(species[1].at(key))) / 38.0 ==
+          doctest::Approx(mean_in(result.at(key))).epsilon(1e-12));
   }
-  CHECK(mean(species[0].at("walls_in")) + mean(species[1].at("walls_in")) ==
-        doctest::Approx(mean(result.at("energy").at("walls_in"))).epsilon(1e-9));
+  CHECK(mean_in(species[0].at("walls_in")) + mean_in(species[1].at("walls_in")) ==
+        doctest::Approx(mean_in(result.at("energy").at("walls_in"))).epsilon(1e-9));
   const json& pairs = result.at("pairs");
   REQUIRE(pairs.size() == 3);
   CHECK(pairs[1].at("species") == json{"small", "large"});
   double lost = 0.0, collisions = 0.0;
   for (const json& pair : pairs) {
-    lost += mean(pair.at("dissipated"));
-    collisions += mean(pair.at("collision_rate"));
+    lost += mean_in(pair.at("dissipated"));
+    collisions += mean_in(pair.at("collision_rate"));
   }
-  CHECK(lost == doctest::Approx(mean(result.at("energy").at("dissipated"))).epsilon(1e-12));
-  CHECK(collisions == doctest::Approx(19.0 * mean(result.at("collision_rate"))).epsilon(1e-12));
+  CHECK(lost == doctest::Approx(mean_in(result.at("energy").at("dissipated"))).epsilon(1e-12));
+  CHECK(collisions == doctest::Approx(19.0 * mean_in(result.at("collision_rate"))).epsilon(1e-12));
   CHECK(result.at("balance").at("number") == 0.0);
   CHECK(result.at("theory").at("pairs").size() == 3);
 }
 
 TEST_CASE("Species: profiles and tables have the fields of each species") {
   const Shell shell;
-  const json profile = measured(shell, "--csv tables").at("profile");
+  const json profile = mix_result(shell, "--csv tables").at("profile");
   for (std::size_t k = 0; k < 4; ++k) {
     double density = 0.0, thermal = 0.0;
     for (const char* name : {"small", "large"}) {
@@ -114,29 +114,29 @@ TEST_CASE("Species: profiles and tables have the fields of each species") {
 
 TEST_CASE("Species: replicas and goals name means by their species") {
   const Shell shell;
-  const json all = measured(shell, "--replicas 2");
+  const json all = mix_result(shell, "--replicas 2");
   const json &one = all.at("results")[0], &two = all.at("results")[1];
   CHECK(all.at("species")[1].at("name") == "large");
-  CHECK(mean(all.at("species")[1].at("temperature")) ==
-        doctest::Approx(0.5 * (mean(one.at("species")[1].at("temperature")) +
-                               mean(two.at("species")[1].at("temperature")))));
-  CHECK(mean(all.at("pairs")[1].at("dissipated")) ==
-        doctest::Approx(0.5 * (mean(one.at("pairs")[1].at("dissipated")) +
-                               mean(two.at("pairs")[1].at("dissipated")))));
+  CHECK(mean_in(all.at("species")[1].at("temperature")) ==
+        doctest::Approx(0.5 * (mean_in(one.at("species")[1].at("temperature")) +
+                               mean_in(two.at("species")[1].at("temperature")))));
+  CHECK(mean_in(all.at("pairs")[1].at("dissipated")) ==
+        doctest::Approx(0.5 * (mean_in(one.at("pairs")[1].at("dissipated")) +
+                               mean_in(two.at("pairs")[1].at("dissipated")))));
   const json goal =
-      measured(shell, "--accuracy 50% --accuracy-of species.large.temperature --until 400");
+      mix_result(shell, "--accuracy 50% --accuracy-of species.large.temperature --until 400");
   CHECK(goal.at("accuracy").at("of") == "species.large.temperature");
 }
 
 TEST_CASE("Species: observables and names that cannot be are refused") {
   const Shell shell;
-  shell.write("mix.toml", kScene);
+  shell.write("mix.toml", kMixScene);
   const std::string line = "clatter check mix.toml ";
   check_refused(shell, line + "--set 'measure.observables=[\"radial_distribution\"]'",
                 {"measure.observables", "without walls"});
   check_refused(shell, line + "--set 'measure.observables=[\"radial_distribution_profile\"]'",
                 {"measure.observables", "one diameter"});
-  std::string text = kScene;
+  std::string text = kMixScene;
   text.replace(text.find("\"small\""), 7, "\"x\"");
   text.replace(text.find("\"small\", "), 9, "\"x\", ");
   shell.write("names.toml", text);

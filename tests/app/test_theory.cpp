@@ -151,7 +151,7 @@ TEST_CASE("Theory: rough gases have the ratio of their temperatures, and kicked 
 
 namespace {
 
-Scene mixture(double restitution) {
+Scene mixture_of(double restitution) {
   Scene scene = scene_of(restitution);
   scene.box = Vec2(30.0, 20.0);
   scene.particles.count = 150;
@@ -166,19 +166,19 @@ Scene mixture(double restitution) {
 }
 
 /// The number of an item of a list of a theory, by its name or names.
-double item(const json& theory, const char* list, const json& about, const char* key) {
+double item_in(const json& theory, const char* list, const json& about, const char* key) {
   for (const json& one : theory.at(list)) {
     if (one.at(one.contains("name") ? "name" : "species") == about) return one.at(key);
   }
   throw std::out_of_range(key);
 }
 
-const json kBoth = {"small", "large"};
+const json kBothSpecies = {"small", "large"};
 
 }  // namespace
 
 TEST_CASE("Theory: an elastic mixture has Z, collision rates and temperatures") {
-  const Scene scene = mixture(1.0);
+  const Scene scene = mixture_of(1.0);
   const json theory = theory_json(scene);
   const double phi = pi * 300.0 / 4.0 / 600.0, free = 1.0 - phi, T = kStart * 150.0 / 149.0;
   const auto chi = [&](double h) {
@@ -187,31 +187,32 @@ TEST_CASE("Theory: an elastic mixture has Z, collision rates and temperatures") 
   const double xi = 8.0 / 9.0;  // (4/3)^2 / 2
   CHECK(theory.at("compressibility").get<double>() ==
         doctest::Approx((1.0 - xi) / free + xi * (1.0 + phi * phi / 8.0) / (free * free)));
-  CHECK(item(theory, "pairs", kBoth, "chi") == doctest::Approx(chi(4.0 / 3.0)).epsilon(1e-12));
-  CHECK(item(theory, "pairs", {"large", "large"}, "chi") ==
+  CHECK(item_in(theory, "pairs", kBothSpecies, "chi") ==
+        doctest::Approx(chi(4.0 / 3.0)).epsilon(1e-12));
+  CHECK(item_in(theory, "pairs", {"large", "large"}, "chi") ==
         doctest::Approx(chi(2.0)).epsilon(1e-12));
-  CHECK(item(theory, "pairs", kBoth, "collision_rate") ==
+  CHECK(item_in(theory, "pairs", kBothSpecies, "collision_rate") ==
         doctest::Approx(100.0 * std::sqrt(2.0 * pi) * 1.5 * chi(4.0 / 3.0) * 50.0 / 600.0 *
                         std::sqrt(T * 1.25)));
-  CHECK(item(theory, "pairs", {"small", "small"}, "collision_rate") ==
+  CHECK(item_in(theory, "pairs", {"small", "small"}, "collision_rate") ==
         doctest::Approx(99.0 / 2.0 * std::sqrt(2.0 * pi) * chi(1.0) * 100.0 / 600.0 *
                         std::sqrt(T * 2.0)));
-  CHECK(item(theory, "species", "large", "temperature") ==
+  CHECK(item_in(theory, "species", "large", "temperature") ==
         doctest::Approx(T * (1.0 - 4.0 / 300.0)).epsilon(1e-12));
   CHECK_FALSE(theory.contains("chi"));
   CHECK_FALSE(theory.contains("haff_rate"));
   // Collisions per particle at one temperature.
-  const double all = item(theory, "pairs", {"small", "small"}, "collision_rate") * 100.0 / 99.0 +
-                     item(theory, "pairs", kBoth, "collision_rate") +
-                     item(theory, "pairs", {"large", "large"}, "collision_rate") * 50.0 / 49.0;
+  const double all = item_in(theory, "pairs", {"small", "small"}, "collision_rate") * 100.0 / 99.0 +
+                     item_in(theory, "pairs", kBothSpecies, "collision_rate") +
+                     item_in(theory, "pairs", {"large", "large"}, "collision_rate") * 50.0 / 49.0;
   CHECK(collision_rate(scene, T) == doctest::Approx(2.0 * all / 150.0).epsilon(1e-12));
 }
 
 TEST_CASE("Theory: mixtures that cool have ratios, and kicked ones temperatures") {
-  Scene scene = mixture(0.9);
+  Scene scene = mixture_of(0.9);
   const json cooling = theory_json(scene);
-  const double small = item(cooling, "species", "small", "temperature_ratio");
-  const double large = item(cooling, "species", "large", "temperature_ratio");
+  const double small = item_in(cooling, "species", "small", "temperature_ratio");
+  const double large = item_in(cooling, "species", "large", "temperature_ratio");
   CHECK(large > small);
   CHECK((2.0 * small + large) / 3.0 == doctest::Approx(1.0).epsilon(1e-12));
   CHECK(cooling.at("haff_rate").get<double>() > 0.0);
@@ -219,19 +220,19 @@ TEST_CASE("Theory: mixtures that cool have ratios, and kicked ones temperatures"
 
   scene.bulk_drive = BulkDrive{.interval = 0.1, .kick_speed = 0.3, .law = KickLaw::Energy};
   const json driven = theory_json(scene);
-  const double T = (2.0 * item(driven, "species", "small", "temperature") +
-                    item(driven, "species", "large", "temperature")) /
+  const double T = (2.0 * item_in(driven, "species", "small", "temperature") +
+                    item_in(driven, "species", "large", "temperature")) /
                    3.0;
   CHECK(driven.at("temperature_driven").get<double>() == doctest::Approx(T).epsilon(1e-12));
   // The gas gets N_s H_s, and loses it in collisions.
-  const double power = 100.0 * item(driven, "species", "small", "bulk_drive_power") +
-                       50.0 * item(driven, "species", "large", "bulk_drive_power");
+  const double power = 100.0 * item_in(driven, "species", "small", "bulk_drive_power") +
+                       50.0 * item_in(driven, "species", "large", "bulk_drive_power");
   CHECK(power ==
         doctest::Approx(0.09 / 0.1 * (100.0 * (1.0 - 1.0 / 300.0) + 50.0 * (1.0 - 4.0 / 300.0))));
 }
 
 TEST_CASE("Theory: equal species have the values of one species") {
-  Scene scene = mixture(0.8);
+  Scene scene = mixture_of(0.8);
   scene.species[1].diameter = 1.0;
   Scene one = scene;
   one.species.clear();
@@ -247,7 +248,7 @@ TEST_CASE("Theory: equal species have the values of one species") {
 }
 
 TEST_CASE("Theory: mixtures have none of the theory of particles that are alike") {
-  Scene scene = mixture(0.9);
+  Scene scene = mixture_of(0.9);
   CHECK(haff_rate(scene) == std::nullopt);
   CHECK(cools_freely(scene));
   scene.particles.restitution = 1.0;
