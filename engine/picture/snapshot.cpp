@@ -1,12 +1,14 @@
 #include "engine/picture/snapshot.h"
 
+#include <utility>
+
 #include "engine/dynamics/simulation.h"
 
 namespace clatter {
 
 template <int D>
 Snapshot snapshot_of(const Simulation<D>& simulation) {
-  const State<D> state = simulation.state();
+  State<D> state = simulation.state();
   Snapshot snapshot;
   snapshot.time = simulation.time();
   snapshot.box = simulation.model().box;
@@ -18,6 +20,7 @@ Snapshot snapshot_of(const Simulation<D>& simulation) {
   snapshot.piston_travel = simulation.piston_travel();
   snapshot.positions = as_columns(state.positions);
   snapshot.velocities = as_columns(state.velocities);
+  snapshot.grains = std::move(state.grains);
   if (simulation.model().spins) snapshot.spins = as_columns(state.spins);
   snapshot.temperature = simulation.temperature();
   snapshot.collisions = simulation.counts().pair_collisions;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -8,6 +9,8 @@
 
 #include "engine/laws/wall.h"
 #include "engine/measure/field_map.h"
+#include "engine/physics/grain.h"
+#include "engine/scene/species.h"
 #include "engine/scene/view.h"
 #include "engine/vec.h"
 
@@ -52,14 +55,16 @@ struct FlightPiece {
 struct Snapshot {
   double time = 0.0;                          ///< simulation time
   VecX box;                                   ///< extents [D]: Lx, Ly and, of spheres, Lz
-  double diameter = 1.0;                      ///< of every particle
+  double diameter = 1.0;                      ///< of every particle, in a mixture of the largest
   std::array<std::optional<Wall>, 6> walls;   ///< indexed by Side; a pair absent: periodic
   std::array<double, 6> wall_displacement{};  ///< of each wall into the box at this time
   double piston_travel = 0.0;                 ///< of the right wall's rest position into the box
-  Vectors positions;           ///< [D][N] centres, wrapped into the box, in original order
-  Vectors velocities;          ///< [D][N]
-  Vectors spins;               ///< [1][N], of spheres [3][N] angular velocities; empty: no spins
-  std::vector<double> angles;  ///< [N] rotation angles of disks, -pi..pi; empty: not observed
+  Vectors positions;             ///< [D][N] centres, wrapped into the box, in original order
+  Vectors velocities;            ///< [D][N]
+  std::vector<Grain> grains;     ///< [N] what the particles are; empty: all alike
+  std::vector<Species> species;  ///< of the scene, for colours and legends; empty: all alike
+  Vectors spins;                 ///< [1][N], of spheres [3][N] angular velocities; empty: no spins
+  std::vector<double> angles;    ///< [N] rotation angles of disks, -pi..pi; empty: not observed
   /// [N] rotations of spheres from their start, unit quaternions; empty: not observed
   std::vector<Eigen::Quaterniond> orientations;
   double exposure = 0.0;             ///< exposure time, which ends at `time`; 0: an instant
@@ -72,9 +77,17 @@ struct Snapshot {
 
   /// The number N of particles.
   std::size_t count() const { return static_cast<std::size_t>(positions.cols()); }
+  /// The radius of particle `i`.
+  double radius(std::size_t i) const { return grains.empty() ? 0.5 * diameter : grains[i].radius; }
+  /// The radius of the smallest particle.
+  double smallest_radius() const {
+    double smallest = 0.5 * diameter;
+    for (const Grain& grain : grains) smallest = std::min(smallest, grain.radius);
+    return smallest;
+  }
 };
 
-/// The gas at the simulation's time, without a field.
+/// The gas at the simulation's time, without a field and without the names of species.
 template <int D>
 Snapshot snapshot_of(const Simulation<D>& simulation);
 

@@ -272,6 +272,7 @@ std::vector<Rotation<D>> ScheduledRun<D>::rotations() const {
 template <int D>
 Snapshot ScheduledRun<D>::snapshot() {
   Snapshot snapshot = snapshot_of(*simulation_);
+  snapshot.species = laws().species;
   if (shown_) shown_->publish(snapshot);
   return snapshot;
 }
