@@ -26,11 +26,12 @@ static double widths_per_distance(const Orbit& orbit) {
   return 2.0 * std::tan(0.5 * radians(orbit.view_angle));
 }
 
-Eye::Eye(const Projection& projection)
+Eye::Eye(const Projection& projection, double diameter)
     : centre_(projection.camera.centre.x(), projection.camera.centre.y(),
               projection.camera.orbit.z),
       axes_(axes_of(projection.camera.orbit)),
       inverse_distance_(widths_per_distance(projection.camera.orbit) / projection.camera.width),
+      diameter_(diameter),
       origin_(0.5 * Vec2(projection.drawn().width, projection.drawn().height) +
               projection.camera.orbit.shift * projection.drawn().width),
       scale_(projection.scale()) {}
@@ -56,8 +57,7 @@ std::array<Vec2, 2> Eye::around(const Vec3& seen, double radius) const {
 }
 
 double Eye::depth_range(const Vec3& box) const {
-  constexpr double kDiameter = 1.0;
-  const double radius = box.norm() + 2.0 * kDiameter + (centre_ - 0.5 * box).norm();
+  const double radius = box.norm() + 2.0 * diameter_ + (centre_ - 0.5 * box).norm();
   if (inverse_distance_ == 0.0) return radius;
   const double front = std::min(radius, (1.0 - kNearest) / inverse_distance_);
   return std::max(radius, front / (1.0 - front * inverse_distance_));

@@ -21,8 +21,8 @@ class Eye {
   /// Least w of drawn points: nearer to the viewer than this share of his distance is nothing.
   static constexpr double kNearest = 0.02;
 
-  /// The viewer of a projection.
-  explicit Eye(const Projection& projection);
+  /// The viewer of a projection. `diameter` is that of the largest spheres.
+  explicit Eye(const Projection& projection, double diameter = 1.0);
 
   /// View coordinates of a world position.
   Vec3 seen(const Vec3& world) const { return axes_ * (world - centre_); }
@@ -56,6 +56,7 @@ class Eye {
   Vec3 centre_;
   Eigen::Matrix3d axes_;
   double inverse_distance_;
+  double diameter_;
   Vec2 origin_;
   double scale_;
 };
