@@ -115,6 +115,11 @@ ColourMap particle_map(Palette palette, Colour ground) {
   return map;
 }
 
+Colour particle_colour(Colour hue, double share, Colour ground) {
+  const Tones tones = tones_of(ground);
+  return toned(hue, luminance_between(tones.slowest, tones.fastest, share));
+}
+
 ColourMap signed_particle_map(Colour ground) {
   const Tones tones = tones_of(ground);
   const bool dark = tones.ground < tones.slowest;

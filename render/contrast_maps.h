@@ -21,6 +21,10 @@ ColourMap particle_map(Palette palette, Colour ground);
 /// For signed values of particles: blue below zero, grey at zero, red above.
 ColourMap signed_particle_map(Colour ground);
 
+/// A colour with the hue of `hue` for particles of one kind. `share` is its place between the
+/// slowest and the fastest particle in equal steps of lightness, 0 to 1.
+Colour particle_colour(Colour hue, double share, Colour ground);
+
 /// For magnitudes of fields: the ground at zero, then the hues of the palette.
 ColourMap field_map(FieldPalette palette, Colour ground);
 

@@ -16,6 +16,7 @@ Label label_of(ColourBy colour_by, int dimension) {
   const std::string speed = unit_of(Quantity::Velocity, 2), spin = unit_of(Quantity::Spin, 2);
   switch (colour_by) {
     case ColourBy::None:
+    case ColourBy::Species:
       break;
     case ColourBy::Speed:
       return {"speed |v|", "", Sign::Positive, speed};

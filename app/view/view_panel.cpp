@@ -17,6 +17,8 @@ static bool shows_in(ColourBy colour_by, const Scene& scene) {
       return scene.dimension() == 3;
     case ColourBy::Spin:
       return scene.spins();
+    case ColourBy::Species:
+      return !scene.species.empty();
     default:
       return true;
   }
@@ -167,7 +169,7 @@ void view_panel(Session& session, Controls& controls) {
   const bool disks = session.scene().dimension() == 2;
   bool changed = !disks && space_controls(session, controls, view);
   changed |= choose_colour(session, controls, view);
-  if (view.colour_by != ColourBy::None) {
+  if (has_scale(view.colour_by)) {
     changed |= choose(controls, "view.palette", "Palette", "All are fit for the colour-blind",
                       kPalettes, view.palette, usual.palette);
     changed |= choose_range(

@@ -34,13 +34,14 @@ inline constexpr std::array<Named<WallKind>, 5> kWallKinds = {
      {"sawtooth", WallKind::Sawtooth},
      {"sinusoidal", WallKind::Sinusoidal}}};
 
-inline constexpr std::array<Named<ColourBy>, 7> kColourings = {{{"none", ColourBy::None},
+inline constexpr std::array<Named<ColourBy>, 8> kColourings = {{{"none", ColourBy::None},
                                                                 {"speed", ColourBy::Speed},
                                                                 {"velocity_x", ColourBy::VelocityX},
                                                                 {"velocity_y", ColourBy::VelocityY},
                                                                 {"velocity_z", ColourBy::VelocityZ},
                                                                 {"spin", ColourBy::Spin},
-                                                                {"depth", ColourBy::Depth}}};
+                                                                {"depth", ColourBy::Depth},
+                                                                {"species", ColourBy::Species}}};
 
 inline constexpr std::array<Named<Palette>, 3> kPalettes = {
     {{"viridis", Palette::Viridis}, {"inferno", Palette::Inferno}, {"cividis", Palette::Cividis}}};

@@ -81,6 +81,10 @@ static void check_colour(const Scene& scene, const toml::table& root, const std:
                     "disks have no velocity along z and no depth",
                     "choose another quantity, or give box.size a third number");
   }
+  if (colour_by == ColourBy::Species && scene.species.empty()) {
+    throw UserError(place_of(root, "view.colour_by", file), "the particles have no species",
+                    "choose another quantity, or give the scene [[species]]");
+  }
   if (colour_by != ColourBy::Spin || scene.spins()) return;
   throw UserError(place_of(root, "view.colour_by", file),
                   std::string("the colour \"spin\" ") + kNotWithoutSpins.reason,

@@ -12,7 +12,12 @@
 namespace clatter {
 
 /// Quantity that a particle's colour shows.
-enum class ColourBy { None, Speed, VelocityX, VelocityY, VelocityZ, Spin, Depth };
+enum class ColourBy { None, Speed, VelocityX, VelocityY, VelocityZ, Spin, Depth, Species };
+
+/// Whether the colours of particles show the values of a quantity, on a scale.
+constexpr bool has_scale(ColourBy colour_by) {
+  return colour_by != ColourBy::None && colour_by != ColourBy::Species;
+}
 
 /// An axis of the box.
 enum class Axis { X, Y, Z };

@@ -126,7 +126,9 @@ void visit_lecture(Visitor& io, Lecture& lecture) {
 
 inline constexpr auto kViewKeys = key_table(
     "view render",
-    {{"colour_by", "", "Quantity that colours the particles. Spin needs rough particles or walls."},
+    {{"colour_by", "",
+      "Quantity that colours the particles. Spin needs rough particles or walls, and species "
+      "`[[species]]`."},
      {"field", "", "Field of the heatmap below the particles. Without a value there is none."},
      {"window", "t",
       "Averaging time of the heatmap and the arrows. Profiles beside films have windows of an "
@@ -163,7 +165,8 @@ inline constexpr auto kViewKeys = key_table(
       "Of disks: repeats particles, trails and heatmap beyond periodic edges, at half their "
       "opacity. Each side has at most 8 copies of the box, and at least 1. Between these limits "
       "all boxes together have at most 4 million disks."},
-     {"overlay", "", "Texts and scales: title, captions, figures, walls, colour bars and scale bar."},
+     {"overlay", "",
+      "Texts and scales: title, captions, figures, walls, colour bars and scale bar."},
      {"overlay_hides", "",
       "Parts that the overlay does not have. caption is that of the scene, captions are timed."},
      {"plots", "",

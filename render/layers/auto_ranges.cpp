@@ -9,6 +9,7 @@
 #include "render/label.h"
 #include "render/layers/disk_colours.h"
 #include "render/layers/field_layer.h"
+#include "render/species_colours.h"
 #include "render/theme.h"
 
 namespace clatter {
@@ -71,7 +72,7 @@ bool shows_field(const Snapshot& snapshot, const View& view) {
 
 RangeEnds extents_of(const Snapshot& snapshot, const View& view) {
   RangeEnds extents;
-  if (view.colour_by != ColourBy::None) extents.disks = disk_extent(snapshot, view.colour_by);
+  if (has_scale(view.colour_by)) extents.disks = disk_extent(snapshot, view.colour_by);
   if (shows_field(snapshot, view)) extents.field = field_extent(snapshot, view);
   if (view.arrows && snapshot.arrows) extents.arrows = arrow_extent(*snapshot.arrows);
   return extents;
@@ -114,11 +115,14 @@ Legends AutoRanges::legends(const std::vector<const Snapshot*>& snapshots, const
     };
   };
   Legends legends;
-  if (view.colour_by != ColourBy::None) {
+  if (has_scale(view.colour_by)) {
     const Label label = label_of(view.colour_by, dimension);
     legends.disks = disks_.legend(
         label, view.range, map_of(label.sign, view, ground),
         largest([&](const Snapshot& gas) { return disk_extent(gas, view.colour_by); }), true);
+  }
+  if (view.colour_by == ColourBy::Species && !first.species.empty()) {
+    legends.species = SpeciesLegend{first.species, species_colours(first.species, ground)};
   }
   if (shows_field(first, view)) {
     const FieldMap& map = *first.field;

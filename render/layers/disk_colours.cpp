@@ -16,6 +16,7 @@ double disk_value(const Snapshot& snapshot, ColourBy colour_by, std::size_t i, c
   const auto column = static_cast<Eigen::Index>(i);
   switch (colour_by) {
     case ColourBy::None:
+    case ColourBy::Species:
       return 0.0;
     case ColourBy::Speed:
       return snapshot.velocities.col(column).norm();
@@ -37,7 +38,9 @@ double disk_value(const Snapshot& snapshot, ColourBy colour_by, std::size_t i, c
 
 Colour DiskColours::of(const Snapshot& snapshot, std::size_t i) const {
   if (tracer == i) return traced;
-  return colour_by == ColourBy::None ? plain : scale(disk_value(snapshot, colour_by, i, away));
+  if (has_scale(colour_by)) return scale(disk_value(snapshot, colour_by, i, away));
+  const bool has_species = !species.empty() && !snapshot.grains.empty();
+  return has_species ? species[snapshot.grains[i].species] : plain;
 }
 
 }  // namespace clatter

@@ -7,10 +7,10 @@
 
 namespace clatter {
 
-double scale_length(const Snapshot& snapshot, const Projection& projection) {
+double scale_length(const Projection& projection) {
   const Size size = projection.drawn();
   const double longest = std::min(0.2 * std::min(size.width, size.height), 0.15 * size.width);
-  return round_down(longest / (snapshot.diameter * projection.scale()));
+  return round_down(longest / projection.scale());
 }
 
 GridLayer::GridLayer(const Gl& gl)
@@ -21,7 +21,7 @@ GridLayer::GridLayer(const Gl& gl)
 void GridLayer::draw(const Snapshot& snapshot, const Projection& projection, Colour colour) const {
   const Size size = projection.size, drawn = projection.drawn();
   const Vec2 low = projection.pixels({0.0, 0.0}), high = projection.pixels(snapshot.box);
-  const double square = scale_length(snapshot, projection) * snapshot.diameter * projection.scale();
+  const double square = scale_length(projection) * projection.scale();
   program_.use();
   gl_->Uniform2f(program_.uniform("u_size"), drawn.width, drawn.height);
   gl_->Uniform2f(program_.uniform("u_low"), low.x(), low.y());

@@ -7,8 +7,8 @@
 
 namespace clatter {
 
-/// Spacing of the grid and length of the scale bar, a round number of disk diameters.
-double scale_length(const Snapshot& snapshot, const Projection& projection);
+/// Spacing of the grid and length of the scale bar, a round number of units a.
+double scale_length(const Projection& projection);
 
 /// Draws a square grid over the box, with its origin at the lower left corner.
 class GridLayer {

@@ -1,7 +1,10 @@
 #include "render/layers/legend.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <string>
 #include <vector>
 
 #include "render/colour_range.h"
@@ -17,6 +20,11 @@ constexpr float kNameHeight = 1.15f;  // from the top of the name to the top of 
 constexpr float kHeadHeight = 2.75f;  // from the top of the name to the top of the bar
 constexpr float kArrowHeight = 2.0f;  // from the top of the name to the middle of the arrow
 constexpr float kLongestArrow = 5.0f;
+constexpr float kSpeciesHead = 1.6f;     // from the top of the heading to that of the first species
+constexpr float kSpeciesHeight = 2.6f;   // from one species to the next
+constexpr float kLargestSpecies = 1.6f;  // diameter of the largest disk
+constexpr float kLeastSpecies = 0.2f;    // diameter of a disk at least
+constexpr float kLongestName = 8.0f;     // of a species
 
 std::string unit_and_range(const Legend& legend, const char* range) {
   const std::string& unit = legend.label.unit;
@@ -62,6 +70,41 @@ float arrow_width(const ArrowLegend& legend, const Fonts& fonts) {
   return std::max({name_width(legend.label, fonts), value, kLongestArrow * fonts.unit()});
 }
 
+// A name without its end if it is longer than the legend.
+std::string shown_name(const std::string& name, const Fonts& fonts) {
+  const float longest = kLongestName * fonts.unit();
+  if (text_extent(fonts.small, name).x <= longest) return name;
+  std::string cut = name;
+  while (text_extent(fonts.small, cut + "…").x > longest) cut.pop_back();
+  return cut + "…";
+}
+
+std::string diameters_of(const Species& species) {
+  const auto text = [](double diameter) {
+    std::array<char, 32> digits;
+    std::snprintf(digits.data(), digits.size(), "%.3g", diameter);
+    return std::string(digits.data());
+  };
+  std::string range = "d = " + text(species.smallest_diameter());
+  if (species.polydispersity) range += "–" + text(species.largest_diameter());
+  return range + " a";
+}
+
+// From the left edge of the legend to the names of the species.
+float species_indent(const Fonts& fonts) {
+  return std::round((kLargestSpecies + 0.5f) * fonts.unit());
+}
+
+float species_width(const SpeciesLegend& legend, const Fonts& fonts) {
+  float width = text_extent(fonts.small, "species").x;
+  for (const Species& species : legend.species) {
+    for (const std::string& text : {shown_name(species.name, fonts), diameters_of(species)}) {
+      width = std::max(width, species_indent(fonts) + text_extent(fonts.small, text).x);
+    }
+  }
+  return width;
+}
+
 }  // namespace
 
 std::vector<Legend> Legends::bars() const {
@@ -74,6 +117,7 @@ std::vector<Legend> Legends::bars() const {
 
 float legend_width(const Legends& legends, const Fonts& fonts) {
   float width = legends.arrows ? arrow_width(*legends.arrows, fonts) : 0.0f;
+  if (legends.species) width = std::max(width, species_width(*legends.species, fonts));
   for (const Legend& legend : legends.bars()) width = std::max(width, bar_width(legend, fonts));
   return std::ceil(width);
 }
@@ -106,6 +150,43 @@ void draw_legend(ImDrawList& list, const Legend& legend, const Fonts& fonts,
               ImVec2(std::round(high.x + 2.0f * kTickLength * unit),
                      std::round(y - 0.5f * fonts.small.size)),
               theme.faint_ink(), tick_text(tick, step));
+  }
+}
+
+float species_legend_height(const SpeciesLegend& legend, const Fonts& fonts) {
+  const auto count = static_cast<float>(legend.species.size());
+  return std::ceil((kSpeciesHead + count * kSpeciesHeight) * fonts.unit());
+}
+
+SpeciesLegend fitting(SpeciesLegend legend, const Fonts& fonts, float height) {
+  while (legend.species.size() > 1 && species_legend_height(legend, fonts) > height) {
+    legend.species.pop_back();
+    legend.colours.pop_back();
+  }
+  return legend;
+}
+
+void draw_species_legend(ImDrawList& list, const SpeciesLegend& legend, const Fonts& fonts,
+                         const ThemeColours& theme, ImVec2 place) {
+  const float unit = fonts.unit();
+  draw_text(list, fonts.small, place, theme.ink(), "species");
+  double largest = 0.0;
+  for (const Species& species : legend.species) largest = std::max(largest, species.diameter);
+  float y = place.y + kSpeciesHead * unit;
+  const float x = place.x + species_indent(fonts);
+  for (std::size_t k = 0; k < legend.species.size(); ++k, y += kSpeciesHeight * unit) {
+    const Species& species = legend.species[k];
+    const auto share = static_cast<float>(species.diameter / largest);
+    const float radius = 0.5f * unit * std::max(share * kLargestSpecies, kLeastSpecies);
+    const ImVec2 middle(place.x + 0.5f * kLargestSpecies * unit,
+                        y + 0.5f * kNameHeight * unit + 0.5f * fonts.small.size);
+    list.AddCircleFilled(middle, radius, packed(legend.colours[k]), 48);
+    // Keeps a colour visible that equals the background.
+    list.AddCircle(middle, radius, packed(theme.static_wall), 48);
+    draw_text(list, fonts.small, ImVec2(x, std::round(y)), theme.ink(),
+              shown_name(species.name, fonts));
+    draw_text(list, fonts.small, ImVec2(x, std::round(y + kNameHeight * unit)), theme.faint_ink(),
+              diameters_of(species));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/scene/species.h"
 #include "render/label.h"
 #include "render/layers/arrow_layer.h"
 #include "render/palette.h"
@@ -25,10 +26,17 @@ struct ArrowLegend {
   double pixels = 1.0;  ///< pixels per unit of value; AutoRanges::legends: length in the scene
 };
 
+/// Legend of the colours and sizes of species.
+struct SpeciesLegend {
+  std::vector<Species> species;
+  std::vector<Colour> colours;  ///< [species]
+};
+
 /// All legends of a picture.
 struct Legends {
   std::optional<Legend> disks, field;
   std::optional<ArrowLegend> arrows;
+  std::optional<SpeciesLegend> species = {};
 
   /// The legends with a colour bar, from top to bottom.
   std::vector<Legend> bars() const;
@@ -44,6 +52,18 @@ std::pair<ImVec2, ImVec2> legend_bar(const Fonts& fonts, ImVec2 place, float hei
 /// pixels.
 void draw_legend(ImDrawList& list, const Legend& legend, const Fonts& fonts,
                  const ThemeColours& theme, ImVec2 place, float height);
+
+/// The legend with as many species, from the first on, as fit into a height in pixels; at least
+/// one.
+SpeciesLegend fitting(SpeciesLegend legend, const Fonts& fonts, float height);
+
+/// Height of the legend of species in pixels.
+float species_legend_height(const SpeciesLegend& legend, const Fonts& fonts);
+
+/// Draws a legend of species: a disk of each colour with the name and the diameters of the species.
+/// The disks have the ratios of the diameters. A long name is cut.
+void draw_species_legend(ImDrawList& list, const SpeciesLegend& legend, const Fonts& fonts,
+                         const ThemeColours& theme, ImVec2 place);
 
 /// Height of the legend of arrows in pixels.
 float arrow_legend_height(const Fonts& fonts);

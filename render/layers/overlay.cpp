@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -59,7 +60,7 @@ OverlayText shown_text(OverlayText text, const View& view) {
 // Hidden particles without trails have no colours to explain.
 Legends shown_legends(Legends legends, const View& view) {
   if (view.hides(OverlayPart::ColourBars)) return {};
-  if (view.opacity == 0.0 && !view.trails) legends.disks.reset();
+  if (view.opacity == 0.0 && !view.trails) legends.disks.reset(), legends.species.reset();
   return legends;
 }
 
@@ -172,7 +173,7 @@ void draw_heading(ImDrawList& list, const OverlayText& text, const Page& page) {
             text.caption, page.wrap);
 }
 
-// Scale bar with its label above. `place` is its lower left corner, `length` in diameters, `pixels`
+// Scale bar with its label above. `place` is its lower left corner, `length` in units a, `pixels`
 // its length in pixels.
 void draw_scale_bar(ImDrawList& list, ImVec2 place, double length, float pixels, const Page& page) {
   const Fonts& fonts = page.fonts;
@@ -239,8 +240,8 @@ std::vector<std::string> wall_lines(const Snapshot& snapshot, const View& view) 
 void draw_row(ImDrawList& list, const Snapshot& snapshot, const Projection& projection,
               const View& view, const Page& page) {
   const float unit = page.fonts.unit(), bottom = page.size.height - page.edge;
-  const double length = scale_length(snapshot, projection);
-  const auto pixels = static_cast<float>(length * snapshot.diameter * projection.scale());
+  const double length = scale_length(projection);
+  const auto pixels = static_cast<float>(length * projection.scale());
   const float right = std::round(page.size.width - page.edge - std::max(pixels, 2.0f * unit));
   if (!view.hides(OverlayPart::ScaleBar)) {
     draw_scale_bar(list, ImVec2(right, bottom), length, pixels, page);
@@ -273,9 +274,9 @@ void draw_column(ImDrawList& list, const Snapshot& snapshot, const Projection& p
   float y = page.size.height - page.edge - std::round(1.5f * unit * figures.size() - 0.5f * unit);
   float end = y - 1.5f * unit;  // of the room above the figures
   if (!view.hides(OverlayPart::ScaleBar) && end - 1.5f * unit > page.heading) {
-    const double length = scale_length(snapshot, projection);
+    const double length = scale_length(projection);
     draw_scale_bar(list, ImVec2(page.left, end), length,
-                   static_cast<float>(length * snapshot.diameter * projection.scale()), page);
+                   static_cast<float>(length * projection.scale()), page);
     end -= 3.0f * unit;
   }
   const std::vector<std::string> walls = wall_lines(snapshot, view);
@@ -350,20 +351,29 @@ void draw_legends(ImDrawList& list, const Legends& legends, const Faces& area,
   const float gap = 1.5f * unit, least = 6.0f * unit;
   const float arrows = legends.arrows ? arrow_legend_height(page.fonts) + gap : 0.0f;
   const auto lowest = static_cast<float>(height - page.margins.bottom);
-  const auto page_room = lowest - static_cast<float>(page.margins.top) + gap - arrows;
+  const auto height_of_page = lowest - static_cast<float>(page.margins.top);
+  std::optional<SpeciesLegend> species = legends.species;
+  if (species) species = fitting(std::move(*species), page.fonts, height_of_page - arrows);
+  const float fixed = arrows + (species ? species_legend_height(*species, page.fonts) + gap : 0.0f);
+  const float page_room = height_of_page + gap - fixed;
   std::vector<Legend> bars = legends.bars();
   // A small picture drops legends from the last; the first one stays.
-  while (bars.size() > 1 && bars.size() * (least + gap) > page_room) bars.pop_back();
+  while (bars.size() > (species ? 0u : 1u) && bars.size() * (least + gap) > page_room)
+    bars.pop_back();
   const auto count = static_cast<float>(bars.size());
-  const float room = (static_cast<float>(bottom - top) + gap - arrows) / count - gap;
+  const float room = (static_cast<float>(bottom - top) + gap - fixed) / count - gap;
   const float each = std::clamp(room, least, 18.0f * unit);
   // Legends taller than the box are centred on it, within the margins of the page.
-  const float all = count * (each + gap) - gap + arrows;
+  const float all = count * (each + gap) - gap + fixed;
   const double middle = top + 0.5 * std::min(0.0, bottom - top - all);
   auto y = static_cast<float>(
       std::round(std::max<double>(page.margins.top, std::min<double>(middle, lowest - all))));
   const float column = legend_width(legends, page.fonts);
   if (column > 0.0f) draw_plate(list, ImVec2(x, y), ImVec2(x + column, y + all), page);
+  if (species) {
+    draw_species_legend(list, *species, page.fonts, page.theme, ImVec2(x, y));
+    y = std::round(y + species_legend_height(*species, page.fonts) + gap);
+  }
   for (const Legend& legend : bars) {
     // Over the box, a translucent scale has the colours that it has on the background.
     const auto [from, to] = legend_bar(page.fonts, ImVec2(x, y), each);

@@ -6,6 +6,7 @@
 
 #include "render/camera_path.h"
 #include "render/layers/space_lines.h"
+#include "render/species_colours.h"
 #include "render/theme.h"
 
 namespace clatter {
@@ -98,8 +99,8 @@ void Renderer::draw(const Snapshot& snapshot, const Camera& camera, Size size, c
   if (view.overlay) overlay_.draw(snapshot, projection, view, legends, text);
 }
 
-DiskColours Renderer::disk_colours(const View& view, const Legends& legends,
-                                   const ThemeColours& theme) const {
+DiskColours Renderer::disk_colours(const Snapshot& snapshot, const View& view,
+                                   const Legends& legends, const ThemeColours& theme) const {
   DiskColours colours;
   colours.colour_by = view.colour_by;
   if (legends.disks) colours.scale = legends.disks->scale;
@@ -107,6 +108,9 @@ DiskColours Renderer::disk_colours(const View& view, const Legends& legends,
   colours.blending = transparent_ ? Blending::Encoded : Blending::Light;
   if (view.tracer) colours.tracer = static_cast<std::size_t>(view.tracer->particle);
   colours.traced = theme.text;
+  if (view.colour_by == ColourBy::Species) {
+    colours.species = species_colours(snapshot.species, theme.background);
+  }
   return colours;
 }
 
@@ -132,7 +136,7 @@ void Renderer::draw_disks(const Snapshot& snapshot, const Projection& projection
   pause(projection);
   if (view.grid) grid_.draw(snapshot, projection, thin(theme.static_wall, kGrid));
   walls_.draw(snapshot, projection, wall_colours(theme, legends, view, 2));
-  const DiskColours colours = disk_colours(view, legends, theme);
+  const DiskColours colours = disk_colours(snapshot, view, legends, theme);
   blend_in_light(true);
   if (view.trails)
     trails_.draw(snapshot, snapshot.flights, projection, colours, *view.trails, tiling);
@@ -177,8 +181,8 @@ void Renderer::clear(const Projection& projection, const ThemeColours& theme) {
 
 void Renderer::draw_spheres(const Snapshot& snapshot, const Projection& projection,
                             const View& view, const Legends& legends, const ThemeColours& theme) {
-  const Eye eye(projection);
-  DiskColours colours = disk_colours(view, legends, theme);
+  const Eye eye(projection, snapshot.diameter);
+  DiskColours colours = disk_colours(snapshot, view, legends, theme);
   colours.away = -eye.axes().row(2).transpose();
   if (!space_) space_.emplace(*gl_, colours.blending);
   const WallColours walls = wall_colours(theme, legends, view, 3);

@@ -70,7 +70,7 @@ class Renderer {
   void blend_in_light(bool on);
   void clear(const Projection& projection, const ThemeColours& theme);
   void pause(const Projection& projection) const;
-  DiskColours disk_colours(const View& view, const Legends& legends,
+  DiskColours disk_colours(const Snapshot& snapshot, const View& view, const Legends& legends,
                            const ThemeColours& theme) const;
   void draw_layers(const Snapshot& snapshot, const Projection& projection, const View& view,
                    const Legends& legends, const ThemeColours& theme);

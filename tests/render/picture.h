@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
+#include <string>
 
 #include "engine/picture/snapshot.h"
 #include "render/context/context.h"
@@ -84,6 +86,16 @@ inline Snapshot one_disk(Vec2 centre, double diameter) {
   snapshot.positions = centre;
   snapshot.velocities = Vec2(0.0, 0.0);
   return snapshot;
+}
+
+/// A species of a legend.
+inline Species species_of(const std::string& name, double diameter = 1.0,
+                          std::optional<Rgb> colour = {}) {
+  Species species;
+  species.name = name;
+  species.diameter = diameter;
+  species.colour = colour;
+  return species;
 }
 
 /// The texts of picture overlays.

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "engine/picture/snapshot.h"
+#include "engine/run/scheduled_run.h"
+#include "engine/scene/scene_file.h"
 #include "tests/engine/measure/scenes.h"
 
 using namespace clatter;
@@ -65,4 +67,43 @@ TEST_CASE("Snapshot: centres are in the box for any start of their flights") {
   simulation->run_until(1.25);  // at (-3.25, 12.25): one box back, three boxes up
   const Snapshot snapshot = snapshot_of(*simulation);
   CHECK(snapshot.positions.col(0) == Vec2(1.75, 0.25));
+}
+
+TEST_CASE("Snapshot: of a mixture it has what the particles are, and the species of the scene") {
+  const Scene scene = parse_scene(R"(
+      box.size = [12, 9]
+      [[species]]
+      name = "small"
+      count = 20
+      [[species]]
+      name = "large"
+      count = 3
+      diameter = 2.0
+      colour = "#c03030"
+      [view]
+      colour_by = "species")",
+                                  "mixture");
+  CHECK(scene.view.colour_by == ColourBy::Species);
+  ScheduledRun<2> run(scene, 1);
+  run.run_until(1.0);
+  const Snapshot snapshot = run.snapshot();
+  REQUIRE(snapshot.grains.size() == 23);
+  CHECK(snapshot.diameter == 2.0);
+  CHECK(snapshot.smallest_radius() == 0.5);
+  for (std::uint32_t i = 0; i < 23; ++i) {
+    CHECK(snapshot.grains[i] == run.simulation().grain(i));
+    CHECK(snapshot.radius(i) == (snapshot.grains[i].species == 1 ? 1.0 : 0.5));
+  }
+  REQUIRE(snapshot.species.size() == 2);
+  CHECK(snapshot.species[0].name == "small");
+  CHECK(snapshot.species[1].colour == Rgb{0xc0, 0x30, 0x30});
+}
+
+TEST_CASE("Snapshot: of particles that are alike it stores neither grains nor species") {
+  ScheduledRun<2> run(gas(9.0, 8.0, 5, 1.0), 1);
+  const Snapshot snapshot = run.snapshot();
+  CHECK(snapshot.grains.empty());
+  CHECK(snapshot.species.empty());
+  CHECK(snapshot.radius(3) == 0.5);
+  CHECK(snapshot.smallest_radius() == 0.5);
 }

@@ -137,6 +137,7 @@ TEST_CASE("Scene file: mistakes are reported with their place and a fix") {
       {kParticles + "[bulk_drive]\ninterval = 1\nkick_speed = 1\nkick_spin = 1\n", "6:1",
        "nothing spins"},
       {view + "colour_by = \"spin\"\n", "4:1", "nothing spins"},
+      {view + "colour_by = \"species\"\n", "4:1", "the particles have no species"},
       {view + "field = \"spin_temperature\"\n", "4:1", "nothing spins"},
       {measure + "fields = [\"density\", \"spin\"]\n", "4:1", "nothing spins"},
       // forces

@@ -164,4 +164,20 @@ TEST_CASE("Automatic ranges: several gases have one range, up to the largest of 
   CHECK(AutoRanges().legends(slow, view).field->scale.high < 1.0);
 }
 
+TEST_CASE("Automatic ranges: colours of species have a legend of species instead of a bar") {
+  Snapshot snapshot = driven_box();
+  View view;
+  view.colour_by = ColourBy::Species;
+  CHECK_FALSE(AutoRanges().legends(snapshot, view).species);
+  snapshot.species = {species_of("small"), species_of("large", 2.0, Rgb{9, 8, 7})};
+  const Legends legends = AutoRanges().legends(snapshot, view);
+  CHECK_FALSE(legends.disks);
+  REQUIRE(legends.species);
+  CHECK(legends.species->species == snapshot.species);
+  CHECK(legends.species->colours[1] == Colour{9, 8, 7});
+  CHECK(extents_of(snapshot, view).disks == 0.0);
+  view.colour_by = ColourBy::Speed;
+  CHECK_FALSE(AutoRanges().legends(snapshot, view).species);
+}
+
 }  // namespace clatter

@@ -15,7 +15,7 @@ TEST_CASE(
   Snapshot snapshot;
   snapshot.box = Vec2(20.0, 15.0);
   // A fifth of 200 pixels leaves room for 2 units, not 5.
-  REQUIRE(scale_length(snapshot, projection) == doctest::Approx(2.0));
+  REQUIRE(scale_length(projection) == doctest::Approx(2.0));
   constexpr Colour kLine = {0xff, 0xff, 0xff};
   GridLayer(context->gl()).draw(snapshot, projection, kLine);
 

@@ -131,4 +131,48 @@ TEST_CASE("Legend: bars stand in order, disks above the field, and the widest ta
   });
 }
 
+TEST_CASE("Legend: species have their colours, names and sizes") {
+  SpeciesLegend legend;
+  legend.species = {species_of("small"), species_of("large", 4.0),
+                    species_of("mixed-and-with-a-very-long-name", 2.0)};
+  legend.species[2].polydispersity = Polydispersity{Spread::Uniform, 0.25};
+  legend.colours = {{200, 10, 10}, {10, 200, 10}, {10, 10, 200}};
+  const Drawing drawing([&](ImDrawList& list, const Fonts& fonts) {
+    draw_species_legend(list, legend, fonts, kDarkTheme, ImVec2(20.0f, 30.0f));
+    CHECK(species_legend_height(legend, fonts) > 100.0f);
+    Legends all;
+    all.species = legend;
+    CHECK(legend_width(all, fonts) > 60.0f);
+    CHECK(legend_width(all, fonts) < 200.0f);
+    CHECK(fitting(legend, fonts, species_legend_height(legend, fonts)).species.size() == 3);
+    CHECK(fitting(legend, fonts, species_legend_height(legend, fonts) - 1.0f).colours.size() == 2);
+    CHECK(fitting(legend, fonts, 0.0f).species.size() == 1);
+  });
+  REQUIRE(drawing.texts.size() == 7);
+  CHECK(drawing.texts[0].text == "species");
+  CHECK(drawing.texts[1].text == "small");
+  CHECK(drawing.texts[2].text == "d = 1 a");
+  CHECK(drawing.texts[3].text == "large");
+  CHECK(drawing.texts[4].text == "d = 4 a");
+  CHECK(drawing.texts[5].text.starts_with("mixed-and"));
+  CHECK(drawing.texts[5].text.ends_with("…"));
+  CHECK(drawing.texts[6].text == "d = 1.5–2.5 a");
+  // The widths of the disks, from their corners; their edges are antialiased over one pixel.
+  const auto extent_of = [&](Colour colour) {
+    float low = 1e9f, high = 0.0f;
+    for (const ImDrawVert& vertex : drawing.vertices) {
+      if (vertex.col != packed(colour)) continue;
+      low = std::min(low, vertex.pos.x);
+      high = std::max(high, vertex.pos.x);
+    }
+    CHECK(low >= 19.0f);
+    CHECK(high < drawing.texts[1].left);
+    return high - low;
+  };
+  const float large = extent_of(legend.colours[1]);
+  CHECK(large > 20.0f);
+  CHECK(std::fabs(extent_of(legend.colours[0]) - 0.25f * large) < 2.0f);
+  CHECK(std::fabs(extent_of(legend.colours[2]) - 0.5f * large) < 2.0f);
+}
+
 }  // namespace clatter

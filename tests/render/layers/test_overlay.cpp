@@ -439,4 +439,33 @@ TEST_CASE("Overlay: a view may hide each part, and the others stay at their plac
         renderer.fit(snapshot, kHigh, view, kText).width);
 }
 
+TEST_CASE("Overlay: the legend of species stands beside the box, in their colours") {
+  const auto context = open_context(Backend::Auto);
+  Renderer renderer(context->gl());
+  const Size size{640, 480};
+  Snapshot snapshot = driven_box();
+  constexpr Rgb kOne{250, 40, 30}, kOther{30, 60, 250};
+  snapshot.species = {species_of("one", 1.0, kOne), species_of("other", 1.0, kOther)};
+  snapshot.grains.assign(snapshot.count(), {});
+  View view = view_with_field();
+  view.colour_by = ColourBy::Species;
+  const Camera camera = renderer.fit(snapshot, size, view, kText);
+  const Image image = draw(renderer, context->gl(), snapshot, camera, size, view);
+  const double right = Projection{camera, size}.pixels(snapshot.box).x() + wall_thickness(size);
+  const auto pixels_of = [&](Rgb colour) {
+    int count = 0;
+    for (int y = 0; y < size.height; ++y) {
+      for (int x = static_cast<int>(right) + 1; x < size.width; ++x) {
+        count += pixel(image, x, y) == Colour{colour.red, colour.green, colour.blue};
+      }
+    }
+    return count;
+  };
+  // Disks with a diameter of 1.6 lines of text of 12 pixels, less their edges.
+  for (const Rgb colour : {kOne, kOther}) {
+    CHECK(pixels_of(colour) > 180);
+    CHECK(pixels_of(colour) < 290);
+  }
+}
+
 }  // namespace clatter
