@@ -4,8 +4,8 @@
 flat in vec2 v_centre;  // drawn pixels
 flat in vec4 v_colour;  // linear light
 flat in vec2 v_axis;    // direction of the mark from the centre
+flat in float v_radius; // drawn pixels
 
-uniform float u_radius;   // drawn pixels
 uniform float u_samples;  // drawn pixels per finished pixel, along each axis
 uniform bool u_encoded;   // output sRGB values instead of linear light
 uniform bool u_marked;    // draw the marks that show the rotation of the disks
@@ -22,7 +22,7 @@ float coverage(float distance) { return clamp(distance + 0.5, 0.0, 1.0); }
 float mark(vec2 place) {
   float along = dot(place, v_axis);
   float across = abs(dot(place, vec2(-v_axis.y, v_axis.x)));
-  return min(coverage(max(0.08 * u_radius, 0.5 * u_samples) - across), coverage(along));
+  return min(coverage(max(0.08 * v_radius, 0.5 * u_samples) - across), coverage(along));
 }
 
 vec3 srgb(vec3 c) {
@@ -31,7 +31,7 @@ vec3 srgb(vec3 c) {
 
 void main() {
   // The reduced radius keeps the area: a soft edge adds pi/12 pixels to it.
-  float distance = sqrt(u_radius * u_radius - 1.0 / 12.0) - length(gl_FragCoord.xy - v_centre);
+  float distance = sqrt(v_radius * v_radius - 1.0 / 12.0) - length(gl_FragCoord.xy - v_centre);
   float whole = coverage(distance);
   if (whole == 0.0) discard;
 
@@ -39,8 +39,8 @@ void main() {
   float alpha = whole * mix(u_faintness, 1.0, coverage(min(inside.x, inside.y)));
 
   // The rim fades out towards the small disks that are drawn through their coverage.
-  float rim = min(0.14 * u_radius, 2.5 * u_samples);
-  float rimmed = clamp((u_radius / u_samples - 1.5) / 5.5, 0.0, 1.0);
+  float rim = min(0.14 * v_radius, 2.5 * u_samples);
+  float rimmed = clamp((v_radius / u_samples - 1.5) / 5.5, 0.0, 1.0);
   float shade = mix(0.3, 1.0, coverage(distance - rim) / whole);
   if (u_marked) shade = min(shade, mix(1.0, 0.3, mark(gl_FragCoord.xy - v_centre)));
   vec3 light = mix(1.0, shade, rimmed) * v_colour.rgb;

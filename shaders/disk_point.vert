@@ -3,20 +3,22 @@
 layout(location = 0) in vec2 a_centre;  // pixels
 layout(location = 1) in vec4 a_colour;  // linear light
 layout(location = 2) in float a_angle;  // angle of rotation, rad
+layout(location = 3) in float a_radius; // pixels
 
 // The viewport is larger than the picture, because OpenGL drops points with their centre outside.
 uniform vec2 u_origin;  // lower left corner of the viewport, pixels
 uniform vec2 u_extent;  // size of the viewport, pixels
-uniform float u_reach;  // from the centre to the outermost covered pixel, pixels
 
 flat out vec2 v_centre;
 flat out vec4 v_colour;
 flat out vec2 v_axis;  // direction of the mark from the centre
+flat out float v_radius;
 
 void main() {
   v_centre = a_centre;
   v_colour = a_colour;
   v_axis = vec2(cos(a_angle), sin(a_angle));
+  v_radius = a_radius;
   gl_Position = vec4(2.0 * (a_centre - u_origin) / u_extent - 1.0, 0.0, 1.0);
-  gl_PointSize = 2.0 * u_reach;
+  gl_PointSize = 2.0 * (a_radius + 0.5);  // with the soft edge of half a pixel
 }

@@ -5,8 +5,8 @@ flat in vec2 v_start;   // centre of the disk at the start of the way, pixels
 flat in vec2 v_along;   // direction of motion, a unit vector
 flat in vec2 v_way;     // length of the way in pixels, and its fraction of the exposure time
 flat in vec4 v_colour;  // linear light
+flat in float v_radius;  // drawn pixels
 
-uniform float u_radius;   // drawn pixels
 uniform float u_samples;  // drawn pixels per finished pixel, along each axis
 
 out vec4 o_light;
@@ -39,12 +39,12 @@ void main() {
   float h = abs(dot(place, vec2(-v_along.y, v_along.x)));
 
   // The reduced radius keeps the area: a soft edge adds pi/12 pixels to it.
-  float radius = sqrt(u_radius * u_radius - 1.0 / 12.0);
+  float radius = sqrt(v_radius * v_radius - 1.0 / 12.0);
   float alpha = average(radius, h, from, to);
   if (alpha <= 0.0) discard;
 
-  float rim = min(0.14 * u_radius, 2.5 * u_samples);
-  float rimmed = clamp((u_radius / u_samples - 1.5) / 5.5, 0.0, 1.0);
+  float rim = min(0.14 * v_radius, 2.5 * u_samples);
+  float rimmed = clamp((v_radius / u_samples - 1.5) / 5.5, 0.0, 1.0);
   float bright = mix(alpha, mix(average(radius - rim, h, from, to), alpha, 0.3), rimmed);
   o_light = v_way.y * v_colour.a * vec4(bright * v_colour.rgb, alpha);
 }

@@ -15,14 +15,15 @@ namespace clatter {
   X(BindVertexArray) X(BlendEquation) X(BlendFuncSeparate) X(BlitFramebuffer) X(BufferData)       \
   X(CheckFramebufferStatus) X(Clear) X(ClearColor) X(CompileShader) X(CreateProgram)              \
   X(CreateShader) X(DeleteBuffers) X(DeleteFramebuffers) X(DeleteProgram) X(DeleteShader)         \
-  X(DeleteTextures) X(DeleteVertexArrays) X(DepthFunc) X(DepthMask) X(Disable) X(DrawArrays)      \
+  X(DeleteTextures) X(DeleteVertexArrays) X(DepthFunc) X(DepthMask) X(Disable) \
+  X(DisableVertexAttribArray) X(DrawArrays)      \
   X(DrawArraysInstanced) X(DrawElements) X(Enable) X(EnableVertexAttribArray)           \
   X(Finish) X(FramebufferTexture2D) X(GenBuffers) X(GenFramebuffers) X(GenTextures)               \
   X(GenVertexArrays) X(GetFloatv) X(GetIntegerv) X(GetProgramInfoLog) X(GetProgramiv)             \
   X(GetShaderInfoLog) X(GetShaderiv) X(GetString) X(GetUniformLocation) X(LinkProgram)            \
   X(PixelStorei) X(ReadPixels) X(Scissor) X(ShaderSource) X(TexImage2D) X(TexImage3D) X(TexParameteri)          \
   X(Uniform1f) X(Uniform1i) X(Uniform2f) X(Uniform3f) X(Uniform4f) X(UniformMatrix3fv)            \
-  X(UseProgram) X(VertexAttribDivisor) X(VertexAttribPointer) X(Viewport)
+  X(UseProgram) X(VertexAttrib1f) X(VertexAttribDivisor) X(VertexAttribPointer) X(Viewport)
 // clang-format on
 
 /// Language of a context.

@@ -15,13 +15,13 @@ struct Way {
   Vec2 high() const { return start.cwiseMax(end); }
 };
 
-// Calls `visit` with each shift along an axis, a multiple of the box length, for which the disk
-// touches the box or a copy on its way. The way must not be longer than the box.
+// Calls `visit` with each shift along an axis, a multiple of the box length, for which a disk of
+// this radius touches the box or a copy on its way. The way must not be longer than the box.
 template <class Visit>
 void visit_shifts(const Snapshot& snapshot, const Tiling& tiling, int axis, const Way& way,
-                  Visit visit) {
+                  double radius, Visit visit) {
   if (snapshot.walls[2 * axis]) return visit(0.0);
-  const double radius = 0.5 * snapshot.diameter, box = snapshot.box[axis];
+  const double box = snapshot.box[axis];
   const double low = tiling.low(snapshot.box)[axis], high = tiling.high(snapshot.box)[axis];
   const double first = std::floor((low - way.high()[axis] - radius) / box) + 1.0;
   const double last = std::min(first + tiling.last[axis] - tiling.first[axis] + 2.0,
@@ -55,8 +55,9 @@ class Collector {
 
  private:
   void add(std::uint32_t disk, const Way& way, double from, double to) {
-    visit_shifts(snapshot_, tiling_, 0, way, [&](double dx) {
-      visit_shifts(snapshot_, tiling_, 1, way, [&](double dy) {
+    const double radius = snapshot_.radius(disk);
+    visit_shifts(snapshot_, tiling_, 0, way, radius, [&](double dx) {
+      visit_shifts(snapshot_, tiling_, 1, way, radius, [&](double dy) {
         const Vec2 shift(dx, dy);
         const Chord chord{disk, projection_.pixels(way.start + shift),
                           projection_.pixels(way.end + shift), from, to};
@@ -67,7 +68,7 @@ class Collector {
 
   // The soft edge of a disk extends half a pixel beyond its radius.
   bool in_sight(const Chord& chord) const {
-    const double reach = 0.5 * snapshot_.diameter * projection_.scale() + 0.5;
+    const double reach = snapshot_.radius(chord.disk) * projection_.scale() + 0.5;
     const Size size = projection_.drawn();
     const Vec2 low = chord.start.cwiseMin(chord.end), high = chord.start.cwiseMax(chord.end);
     return (high.array() > -reach).all() && low.x() < size.width + reach &&

@@ -12,13 +12,29 @@ namespace clatter {
 
 namespace {
 
+constexpr double kSoftEdge = 0.5;  // from the radius of a disk to its outermost pixels, pixels
+
+// The radius of the largest disks.
 double radius_pixels(const Snapshot& snapshot, const Projection& projection) {
   return 0.5 * snapshot.diameter * projection.scale();
 }
 
-// The soft edge of a disk extends half a pixel beyond its radius.
-double reach_pixels(const Snapshot& snapshot, const Projection& projection) {
-  return radius_pixels(snapshot, projection) + 0.5;
+bool in_sight(const Vec2& centre, double reach, const Projection& projection) {
+  const Size drawn = projection.drawn();
+  return (centre.array() > -reach).all() && centre.x() < drawn.width + reach &&
+         centre.y() < drawn.height + reach;
+}
+
+// The radius of the largest disks that have a coverage, if there is one.
+double largest_covered(const Snapshot& snapshot, const Projection& projection) {
+  const double largest = radius_pixels(snapshot, projection);
+  if (largest < Coverage::kLargestRadius) return largest;
+  double covered = 0.0;
+  for (const Grain& grain : snapshot.grains) {
+    const double radius = grain.radius * projection.scale();
+    if (radius < Coverage::kLargestRadius) covered = std::max(covered, radius);
+  }
+  return covered;
 }
 
 double largest_point_of(const Gl& gl) {
@@ -32,12 +48,8 @@ double largest_point_of(const Gl& gl) {
 template <class Visit>
 void visit_disks(const Snapshot& snapshot, const Projection& projection, const Tiling& tiling,
                  Visit visit) {
-  const double reach = reach_pixels(snapshot, projection);
-  const double radius = 0.5 * snapshot.diameter;
-  const Vec2 high(projection.drawn().width + reach, projection.drawn().height + reach);
-
   // Calls `shifted` with the shifts along an axis of a disk and its periodic images.
-  auto shifts = [&](int axis, double place, auto&& shifted) {
+  auto shifts = [&](int axis, double place, double radius, auto&& shifted) {
     const int first = tiling.first[axis], last = tiling.last[axis];
     const double length = snapshot.box[axis];
     for (int copy = first; copy <= last; ++copy) shifted(copy * length);
@@ -48,11 +60,12 @@ void visit_disks(const Snapshot& snapshot, const Projection& projection, const T
 
   for (std::size_t i = 0; i < snapshot.count(); ++i) {
     const Vec2 place = snapshot.positions.col(static_cast<Eigen::Index>(i));
-    shifts(0, place.x(), [&](double dx) {
-      shifts(1, place.y(), [&](double dy) {
+    const double radius = snapshot.radius(i);
+    const double reach = radius * projection.scale() + kSoftEdge;
+    shifts(0, place.x(), radius, [&](double dx) {
+      shifts(1, place.y(), radius, [&](double dy) {
         const Vec2 centre = projection.pixels(place + Vec2(dx, dy));
-        if ((centre.array() <= -reach).any() || (centre.array() >= high.array()).any()) return;
-        visit(centre, i);
+        if (in_sight(centre, reach, projection)) visit(centre, i);
       });
     });
   }
@@ -68,6 +81,7 @@ DiskLayer::DiskLayer(const Gl& gl, std::optional<double> largest_point)
       swept_(gl),
       light_(gl),
       buffer_(generate<Buffer>(gl, gl.GenBuffers)),
+      radii_of_disks_(gl),
       points_(generate<VertexArray>(gl, gl.GenVertexArrays)),
       squares_(generate<VertexArray>(gl, gl.GenVertexArrays)) {
   gl.BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
@@ -87,23 +101,30 @@ DiskLayer::DiskLayer(const Gl& gl, std::optional<double> largest_point)
 
 void DiskLayer::draw(const Snapshot& snapshot, const Projection& projection,
                      const DiskColours& colours, const Tiling& tiling) {
-  if (radius_pixels(snapshot, projection) < Coverage::kLargestRadius) {
-    draw_coverage(snapshot, projection, colours, tiling);
-  } else if (snapshot.exposure > 0.0) {
-    swept_.draw(snapshot, projection, colours, tiling);
+  constexpr double kLimit = Coverage::kLargestRadius;
+  const double largest = radius_pixels(snapshot, projection);
+  const bool has_small = snapshot.smallest_radius() * projection.scale() < kLimit;
+  if (has_small) draw_coverage(snapshot, projection, colours, tiling);
+  if (largest < kLimit) return;
+  if (snapshot.exposure > 0.0) {
+    swept_.draw(snapshot, projection, colours, tiling, kLimit);
   } else {
     draw_shapes(snapshot, projection, colours, tiling);
   }
 }
 
+// Disks of a mixture that are too large for a coverage are left out.
 void DiskLayer::draw_coverage(const Snapshot& snapshot, const Projection& projection,
                               const DiskColours& colours, const Tiling& tiling) {
-  coverage_.restart(projection.drawn(), radius_pixels(snapshot, projection));
+  const double largest = largest_covered(snapshot, projection);
+  coverage_.restart(projection.drawn(), largest);
   if (snapshot.exposure > 0.0) {
-    cover_paths(snapshot, projection, colours, tiling);
+    cover_paths(snapshot, projection, colours, tiling, largest);
   } else {
     visit_disks(snapshot, projection, tiling, [&](const Vec2& centre, std::size_t i) {
-      coverage_.add(centre, colours.of(snapshot, i));
+      const double radius = snapshot.radius(i) * projection.scale();
+      if (radius >= Coverage::kLargestRadius) return;
+      coverage_.add(centre, colours.of(snapshot, i), 1.0f, radius / largest);
     });
   }
   coverage_.sum();
@@ -113,49 +134,64 @@ void DiskLayer::draw_coverage(const Snapshot& snapshot, const Projection& projec
 // Adds disks along their paths in steps, each with its share of the exposure. The coverage resolves
 // positions far below a step.
 void DiskLayer::cover_paths(const Snapshot& snapshot, const Projection& projection,
-                            const DiskColours& colours, const Tiling& tiling) {
+                            const DiskColours& colours, const Tiling& tiling, double largest) {
   constexpr double kStep = 0.25;  // pixels
   constexpr double kMaxSteps = 1e6;
-  const double reach = reach_pixels(snapshot, projection);
-  const Vec2 high(projection.drawn().width + reach, projection.drawn().height + reach);
   for (const Chord& chord :
        chords(snapshot, snapshot.flights, projection, snapshot.exposure, tiling)) {
+    const double radius = snapshot.radius(chord.disk) * projection.scale();
+    if (radius >= Coverage::kLargestRadius) continue;
     const Colour colour = colours.of(snapshot, chord.disk);
     const Vec2 way = chord.end - chord.start;
     const int steps = static_cast<int>(std::min(way.norm() / kStep, kMaxSteps)) + 1;
     const double share = (chord.to - chord.from) / snapshot.exposure / steps;
     for (int k = 0; k < steps; ++k) {
       const Vec2 centre = chord.start + (k + 0.5) / steps * way;
-      if ((centre.array() <= -reach).any() || (centre.array() >= high.array()).any()) continue;
-      coverage_.add(centre, colour, static_cast<float>(share));
+      if (!in_sight(centre, radius + kSoftEdge, projection)) continue;
+      coverage_.add(centre, colour, static_cast<float>(share), radius / largest);
     }
   }
 }
 
-void DiskLayer::draw_shapes(const Snapshot& snapshot, const Projection& projection,
-                            const DiskColours& colours, const Tiling& tiling) {
-  const bool marked = !snapshot.angles.empty();
+void DiskLayer::collect(const Snapshot& snapshot, const Projection& projection,
+                        const DiskColours& colours, const Tiling& tiling) {
+  const bool marked = !snapshot.angles.empty(), alike = snapshot.grains.empty();
   disks_.clear();
+  radii_.clear();
   visit_disks(snapshot, projection, tiling, [&](const Vec2& centre, std::size_t i) {
+    if (!alike) {
+      const double radius = snapshot.radius(i) * projection.scale();
+      if (radius < Coverage::kLargestRadius) return;
+      radii_.push_back(static_cast<float>(radius));
+    }
     disks_.push_back({static_cast<float>(centre.x()), static_cast<float>(centre.y()),
                       marked ? static_cast<float>(snapshot.angles[i]) : 0.0f,
                       light_of(colours.of(snapshot, i))});
   });
+  if (alike) radii_ = {static_cast<float>(radius_pixels(snapshot, projection))};
+}
+
+void DiskLayer::draw_shapes(const Snapshot& snapshot, const Projection& projection,
+                            const DiskColours& colours, const Tiling& tiling) {
+  collect(snapshot, projection, colours, tiling);
   encode_light(*gl_, colours.blending == Blending::Light);
   gl_->BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
   gl_->BufferData(GL_ARRAY_BUFFER, disks_.size() * sizeof(Disk), disks_.data(), GL_STREAM_DRAW);
 
   const GLsizei count = static_cast<GLsizei>(disks_.size());
-  if (2.0 * reach_pixels(snapshot, projection) <= largest_point_) {
+  const double reach = radius_pixels(snapshot, projection) + kSoftEdge;
+  if (2.0 * reach <= largest_point_) {
     // OpenGL drops points with their centre outside the viewport, so the viewport has a margin.
     set_uniforms(point_, snapshot, projection, colours.blending, tiling.faintness,
-                 static_cast<int>(reach_pixels(snapshot, projection)) + 1);
+                 static_cast<int>(reach) + 1);
     if (gl_->api == Api::Desktop) gl_->Enable(GL_PROGRAM_POINT_SIZE);  // ES: always on
     gl_->BindVertexArray(points_.id());
+    radii_of_disks_.set(3, radii_, 0);
     gl_->DrawArrays(GL_POINTS, 0, count);
   } else {
     set_uniforms(square_, snapshot, projection, colours.blending, tiling.faintness, 0);
     gl_->BindVertexArray(squares_.id());
+    radii_of_disks_.set(3, radii_, 1);
     gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
   }
   encode_light(*gl_, false);
@@ -175,8 +211,6 @@ void DiskLayer::set_uniforms(const Program& program, const Snapshot& snapshot,
   program.use();
   gl_->Uniform2f(program.uniform("u_origin"), -margin, -margin);
   gl_->Uniform2f(program.uniform("u_extent"), width, height);
-  gl_->Uniform1f(program.uniform("u_reach"), reach_pixels(snapshot, projection));
-  gl_->Uniform1f(program.uniform("u_radius"), radius_pixels(snapshot, projection));
   gl_->Uniform1f(program.uniform("u_samples"), projection.samples);
   gl_->Uniform1i(program.uniform("u_encoded"), blending == Blending::Encoded);
   gl_->Uniform1f(program.uniform("u_faintness"), faintness);

@@ -5,6 +5,7 @@
 
 #include "engine/picture/snapshot.h"
 #include "render/camera.h"
+#include "render/gl/instance_numbers.h"
 #include "render/gl/shader_program.h"
 #include "render/layers/coverage.h"
 #include "render/layers/disk_colours.h"
@@ -13,9 +14,9 @@
 
 namespace clatter {
 
-/// Draws the disks as points. Disks larger than the largest point are drawn as squares, disks below
-/// Coverage::kLargestRadius through their coverage. Disks of known angle have a mark that turns
-/// with them. With an exposure time disks have motion blur and no mark.
+/// Draws the disks as points, or as squares if the largest disk is larger than the largest point.
+/// Disks below Coverage::kLargestRadius are drawn through their coverage. Disks of known angle have
+/// a mark that turns with them. With an exposure time disks have motion blur and no mark.
 class DiskLayer {
  public:
   /// `largest_point` is the largest point size in pixels; absent: the limit of the driver.
@@ -36,7 +37,9 @@ class DiskLayer {
   void draw_coverage(const Snapshot& snapshot, const Projection& projection,
                      const DiskColours& colours, const Tiling& tiling);
   void cover_paths(const Snapshot& snapshot, const Projection& projection,
-                   const DiskColours& colours, const Tiling& tiling);
+                   const DiskColours& colours, const Tiling& tiling, double largest);
+  void collect(const Snapshot& snapshot, const Projection& projection, const DiskColours& colours,
+               const Tiling& tiling);
   void draw_shapes(const Snapshot& snapshot, const Projection& projection,
                    const DiskColours& colours, const Tiling& tiling);
   void set_uniforms(const Program& program, const Snapshot& snapshot, const Projection& projection,
@@ -49,10 +52,12 @@ class DiskLayer {
   SweptLayer swept_;
   LightLayer light_;
   Buffer buffer_;
-  VertexArray points_;       ///< reads the buffer, one vertex per disk
-  VertexArray squares_;      ///< reads the buffer, one instance per disk
-  std::vector<Disk> disks_;  ///< visible disks and periodic images; reused to avoid allocations
-  Coverage coverage_;        ///< reused to avoid allocations
+  InstanceNumbers radii_of_disks_;
+  VertexArray points_;        ///< reads the buffer, one vertex per disk
+  VertexArray squares_;       ///< reads the buffer, one instance per disk
+  std::vector<Disk> disks_;   ///< visible disks and periodic images; reused to avoid allocations
+  std::vector<float> radii_;  ///< of these, drawn pixels; of disks that are alike one for all
+  Coverage coverage_;         ///< reused to avoid allocations
 };
 
 }  // namespace clatter

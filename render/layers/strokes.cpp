@@ -7,6 +7,7 @@ namespace clatter {
 Strokes::Strokes(const Gl& gl)
     : gl_(&gl),
       buffer_(generate<Buffer>(gl, gl.GenBuffers)),
+      widths_(gl),
       vertices_(generate<VertexArray>(gl, gl.GenVertexArrays)) {
   gl.BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
   gl.BindVertexArray(vertices_.id());
@@ -22,10 +23,11 @@ Strokes::Strokes(const Gl& gl)
   }
 }
 
-void Strokes::draw(const std::vector<Stroke>& strokes) {
+void Strokes::draw(const std::vector<Stroke>& strokes, const std::vector<float>& widths) {
   gl_->BindBuffer(GL_ARRAY_BUFFER, buffer_.id());
   gl_->BufferData(GL_ARRAY_BUFFER, strokes.size() * sizeof(Stroke), strokes.data(), GL_STREAM_DRAW);
   gl_->BindVertexArray(vertices_.id());
+  widths_.set(4, widths, 1);
   gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(strokes.size()));
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/gl/gl_object.h"
+#include "render/gl/instance_numbers.h"
 #include "render/layers/disk_colours.h"
 
 namespace clatter {
@@ -21,12 +22,14 @@ class Strokes {
  public:
   explicit Strokes(const Gl& gl);
 
-  /// Draws strokes with the program in use.
-  void draw(const std::vector<Stroke>& strokes);
+  /// Draws strokes with the program in use. The vertex shader reads the widths, in pixels, as
+  /// attribute 4. They are one of each stroke, or one for all.
+  void draw(const std::vector<Stroke>& strokes, const std::vector<float>& widths);
 
  private:
   const Gl* gl_;
   Buffer buffer_;
+  InstanceNumbers widths_;
   VertexArray vertices_;
 };
 

@@ -19,8 +19,9 @@ class SweptLayer {
 
   /// Draws the disks along the flights of the snapshot, also in the copies of the box, into the
   /// bound framebuffer, which must be sRGB. A disk has its colour at the time of the snapshot.
+  /// Disks with a radius below `least` pixels are left out.
   void draw(const Snapshot& snapshot, const Projection& projection, const DiskColours& colours,
-            const Tiling& tiling);
+            const Tiling& tiling, double least = 0.0);
 
  private:
   const Gl* gl_;
@@ -28,6 +29,7 @@ class SweptLayer {
   LightLayer light_;
   Strokes strokes_;
   std::vector<Stroke> drawn_;  ///< reused to avoid allocations
+  std::vector<float> radii_;   ///< of these, drawn pixels; of disks that are alike one for all
 };
 
 }  // namespace clatter

@@ -11,6 +11,7 @@
 namespace clatter {
 
 /// Draws the past paths of the disks as lines in the colours of the disks, which fade out with age.
+/// The width of a line is a fifth of the diameter of its disk.
 class TrailLayer {
  public:
   explicit TrailLayer(const Gl& gl);
@@ -27,6 +28,7 @@ class TrailLayer {
   LightLayer light_;
   Strokes strokes_;
   std::vector<Stroke> drawn_;  ///< reused to avoid allocations
+  std::vector<float> halves_;  ///< half the widths; of disks that are alike one for all
 };
 
 }  // namespace clatter

@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "render/chart_axis.h"
 
 namespace clatter {

@@ -93,4 +93,28 @@ TEST_CASE("Coverage: a picture without disks has no light, also after one with d
   CHECK(total(coverage).isZero());
 }
 
+TEST_CASE("Coverage: smaller disks of a picture have their own areas and places") {
+  Coverage coverage;
+  const int width = kCoverageSize.width + 2 * Coverage::kMargin;
+  for (const double relative : {1.0, 0.9375, 0.7, 0.34, 0.05}) {
+    CAPTURE(relative);
+    const Vec2 centre(20.31, 11.87);
+    coverage.restart(kCoverageSize, 1.49);
+    coverage.add(centre, {255, 255, 255}, 1.0f, relative);
+    coverage.sum();
+    const double radius = 1.49 * relative;
+    CHECK(total(coverage)[3] == doctest::Approx(M_PI * radius * radius).epsilon(1e-5));
+    double worst = 0.0;
+    for (int y = 0; y < kCoverageSize.height; ++y) {
+      for (int x = 0; x < kCoverageSize.width; ++x) {
+        const double area =
+            coverage.pixels()[(y + Coverage::kMargin) * width + x + Coverage::kMargin][3];
+        worst = std::max(worst, std::abs(area - area_in(x, y, centre, radius)));
+      }
+    }
+    // Radii have a resolution of 1/32 of the largest.
+    CHECK(worst < 0.1);
+  }
+}
+
 }  // namespace clatter
