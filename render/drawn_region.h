@@ -23,8 +23,7 @@ DrawnRegion drawn_region(const Snapshot& snapshot, const std::optional<Slab>& sl
 
 /// Calls `visit` with the position of each image of a sphere that reaches into the box.
 template <class Visit>
-void visit_images(const Snapshot& snapshot, const Vec3& position, Visit visit) {
-  const double radius = 0.5 * snapshot.diameter;
+void visit_images(const Snapshot& snapshot, const Vec3& position, double radius, Visit visit) {
   const auto shifted = [&](auto&& self, int axis, const Vec3& place) -> void {
     if (axis == 3) return visit(place);
     self(self, axis + 1, place);

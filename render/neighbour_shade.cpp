@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 
 namespace clatter {
 
@@ -33,12 +34,14 @@ class Cells {
       members_[next[index(cell(centres[i]))]++] = i;
   }
 
-  // Calls `visit` with the number of each sphere in the cells around a position.
+  // Calls `visit` with the number of each sphere in the cells around a position, up to a distance.
   template <class Visit>
-  void visit_near(const Vec<3>& position, Visit visit) const {
+  void visit_near(const Vec<3>& position, double distance, Visit visit) const {
     const IntVec<3> middle = cell(position);
-    const IntVec<3> from = (middle.array() - 1).max(0);
-    const IntVec<3> to = (middle.array() + 1).min(counts_.array() - 1);
+    const int cells = static_cast<int>(std::ceil(distance / width_));
+    const IntVec<3> from = (middle.array() - cells).max(0);
+    const IntVec<3> to = (middle.array() + cells).min(counts_.array() - 1);
+    if ((to.array() < from.array()).any()) return;  // the position is far outside
     for (int z = from.z(); z <= to.z(); ++z) {
       for (int y = from.y(); y <= to.y(); ++y) {
         // Cells along x are adjacent in memory.
@@ -66,11 +69,29 @@ class Cells {
   std::vector<std::uint32_t> first_, members_;
 };
 
-void add(NeighbourShade& shade, const Vec<3>& offset, double distance, double diameter) {
+// Spheres whose radii differ by a factor of 2 at most, with cells of the size of the largest. So
+// each sphere visits few cells with few spheres too far away.
+struct SizeClass {
+  double largest;  // radius
+  std::span<const Vec<3>> centres;
+  std::span<const double> radii;  // one of each, or one for all
+  Cells cells;
+
+  SizeClass(double most, std::span<const Vec<3>> places, std::span<const double> of_each)
+      : largest(most), centres(places), radii(of_each), cells(places, kReach * 2.0 * most) {}
+
+  double radius(std::uint32_t k) const { return radii.size() == 1 ? radii[0] : radii[k]; }
+};
+
+// The shade by one neighbour. `equal` is the distance at which the spheres would have the same gap
+// if they were equal, `factor` that of the weight.
+void add(NeighbourShade& shade, const Vec<3>& offset, double distance, double equal, double factor,
+         double diameter) {
   // The weight fades out, so that a neighbour that leaves does not change the light at once.
   const double reach = kReach * diameter;
-  const double fade = std::min(1.0, 4.0 * (1.0 - distance / reach));
-  const auto weight = static_cast<float>(0.5 * fade * diameter * diameter / (distance * distance));
+  const double fade = std::min(1.0, 4.0 * (1.0 - equal / reach));
+  const auto weight =
+      static_cast<float>(factor * fade * diameter * diameter / (distance * distance));
   const Eigen::Vector3f u = (offset / distance).cast<float>();
   shade.weight += weight;
   shade.direction += weight * u;
@@ -78,23 +99,59 @@ void add(NeighbourShade& shade, const Vec<3>& offset, double distance, double di
   shade.products += weight * Eigen::Vector3f(u.x() * u.y(), u.x() * u.z(), u.y() * u.z());
 }
 
+// Adds the shade of the spheres of a class on a sphere.
+void add(NeighbourShade& shade, const Vec<3>& centre, double radius, const SizeClass& of) {
+  const double farthest = kReach * 2.0 * of.largest + std::max(radius - of.largest, 0.0);
+  of.cells.visit_near(centre, farthest, [&](std::uint32_t j) {
+    const Vec<3> offset = of.centres[j] - centre;
+    const double square = offset.squaredNorm(), other = of.radius(j);
+    const double reach = kReach * 2.0 * other + (radius - other);
+    if (square >= reach * reach || square == 0.0) return;
+    const double distance = std::sqrt(square);
+    const double factor = radius < other ? 0.25 * (1.0 + radius / other) : 0.5;
+    add(shade, offset, distance, distance - (radius - other), factor, 2.0 * other);
+  });
+}
+
+// The centres and radii of the spheres of a class, in order.
+struct Members {
+  std::vector<Vec<3>> centres;
+  std::vector<double> radii;
+};
+
+std::map<int, Members> members_by_size(std::span<const Vec<3>> centres,
+                                       std::span<const double> radii) {
+  const double largest = *std::ranges::max_element(radii);
+  std::map<int, Members> classes;
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    Members& members = classes[static_cast<int>(std::log2(largest / radii[i]))];
+    members.centres.push_back(centres[i]);
+    members.radii.push_back(radii[i]);
+  }
+  return classes;
+}
+
 }  // namespace
 
 std::vector<NeighbourShade> neighbour_shades(std::span<const Vec<3>> centres,
-                                             std::span<const std::uint32_t> wanted,
-                                             double diameter) {
+                                             std::span<const double> radii,
+                                             std::span<const std::uint32_t> wanted) {
   std::vector<NeighbourShade> shades(wanted.size());
   if (wanted.empty()) return shades;
-  const double reach = kReach * diameter;
-  const Cells cells(centres, reach);
+  std::map<int, Members> by_size;
+  std::vector<SizeClass> classes;
+  if (radii.size() == 1) {
+    classes.emplace_back(radii[0], centres, radii);
+  } else {
+    by_size = members_by_size(centres, radii);
+    for (const auto& [number, members] : by_size) {
+      classes.emplace_back(*std::ranges::max_element(members.radii), members.centres,
+                           members.radii);
+    }
+  }
   for (std::size_t k = 0; k < wanted.size(); ++k) {
-    const Vec<3>& centre = centres[wanted[k]];
-    cells.visit_near(centre, [&](std::uint32_t j) {
-      const Vec<3> offset = centres[j] - centre;
-      const double square = offset.squaredNorm();
-      if (square >= reach * reach || square == 0.0) return;
-      add(shades[k], offset, std::sqrt(square), diameter);
-    });
+    const double radius = radii.size() == 1 ? radii[0] : radii[wanted[k]];
+    for (const SizeClass& of : classes) add(shades[k], centres[wanted[k]], radius, of);
   }
   return shades;
 }

@@ -61,7 +61,8 @@ struct Ray {
 
 std::optional<std::size_t> disk_at(const Snapshot& snapshot, const Vec2& point) {
   for (Eigen::Index i = 0; i < snapshot.positions.cols(); ++i) {
-    if ((snapshot.positions.col(i) - point).norm() < 0.5 * snapshot.diameter) return i;
+    const auto number = static_cast<std::size_t>(i);
+    if ((snapshot.positions.col(i) - point).norm() < snapshot.radius(number)) return number;
   }
   return std::nullopt;
 }
@@ -92,8 +93,9 @@ std::optional<std::size_t> particle_at(const Snapshot& snapshot, const Eye& eye,
     double nearest = kInfinity;
     for (std::size_t i = 0; i < snapshot.count(); ++i) {
       const Vec3 position = snapshot.positions.col(static_cast<Eigen::Index>(i));
-      visit_images(snapshot, position, [&](const Vec3& place) {
-        const double entry = ray.enters(place, 0.5 * snapshot.diameter, drawn);
+      const double radius = snapshot.radius(i);
+      visit_images(snapshot, position, radius, [&](const Vec3& place) {
+        const double entry = ray.enters(place, radius, drawn);
         if (entry >= nearest) return;
         nearest = entry;
         front = i;

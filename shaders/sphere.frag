@@ -4,6 +4,7 @@
 // compute unused parts for each pixel.
 
 flat in vec3 v_centre;    // view coordinates, see render/eye.h
+flat in float v_radius;   // world units
 flat in vec4 v_colour;    // linear light
 flat in vec4 v_crowding;  // direction and weight of the neighbours
 flat in vec3 v_squares;   // xx, yy, zz of their second moments
@@ -14,7 +15,6 @@ uniform vec2 u_origin;             // pixel of the centre of the view
 uniform float u_scale;             // pixels per world unit, at the centre
 uniform float u_inverse_distance;  // of the viewer from the centre
 uniform float u_depth_range;       // largest |z/w|
-uniform float u_radius;            // world units
 uniform float u_samples;           // drawn pixels per finished pixel, along each axis
 uniform mat3 u_axes;               // from the view to the world
 uniform vec3 u_centre;             // world position of the centre of the view
@@ -81,13 +81,13 @@ void main() {
   vec3 away = vec3(place, 0.0) - v_centre;  // the ray meets the plane z = 0 at `place`
   vec3 nearest = away - dot(away, along) * along;
   float w = 1.0 - v_centre.z * u_inverse_distance;
-  float pixels = u_scale / w * u_radius;  // radius on the picture
+  float pixels = u_scale / w * v_radius;  // radius on the picture
   float off = length(nearest);
-  float whole = coverage((u_radius - off) / u_radius * pixels);
+  float whole = coverage((v_radius - off) / v_radius * pixels);
   if (whole == 0.0) discard;
 
   // The chord inside the sphere, then inside the planes, in world coordinates.
-  float half_chord = sqrt(max(u_radius * u_radius - off * off, 0.0));
+  float half_chord = sqrt(max(v_radius * v_radius - off * off, 0.0));
   bool cut = false;
   float t = -half_chord, alpha = whole;
 #ifdef CUT
@@ -106,7 +106,7 @@ void main() {
 #endif
 
   vec3 point = v_centre + nearest + t * along;
-  vec3 normal = (nearest - half_chord * along) / u_radius;
+  vec3 normal = (nearest - half_chord * along) / v_radius;
   float shade = light(normal);
 #ifdef MARKED
   shade *= mark(normal, pixels);
@@ -115,7 +115,7 @@ void main() {
   if (cut) {
     shade = 0.8;  // a flat cut, with a darker rim
     float rim = min(0.14 * pixels, 2.0 * u_samples);
-    shade *= mix(0.45, 1.0, coverage((u_radius - off) / u_radius * pixels - rim));
+    shade *= mix(0.45, 1.0, coverage((v_radius - off) / v_radius * pixels - rim));
   }
 #endif
   vec3 colour = shade * v_colour.rgb;

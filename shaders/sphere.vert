@@ -1,6 +1,6 @@
 // A sphere, drawn as an instance of the rectangle that contains it on the picture.
 
-layout(location = 0) in vec3 a_centre;     // view coordinates, see render/eye.h
+layout(location = 0) in vec4 a_centre;     // view coordinates, see render/eye.h, and the radius
 layout(location = 1) in vec4 a_colour;     // linear light
 layout(location = 2) in vec4 a_crowding;   // direction and weight of the neighbours
 layout(location = 3) in vec3 a_squares;    // xx, yy, zz of their second moments
@@ -11,9 +11,9 @@ uniform vec2 u_size;               // size of the picture, pixels
 uniform vec2 u_origin;             // pixel of the centre of the view
 uniform float u_scale;             // pixels per world unit, at the centre
 uniform float u_inverse_distance;  // of the viewer from the centre
-uniform float u_radius;            // world units
 
 flat out vec3 v_centre;
+flat out float v_radius;
 flat out vec4 v_colour;
 flat out vec4 v_crowding;
 flat out vec3 v_squares;
@@ -30,14 +30,15 @@ vec2 extent(float across, float w, float radius) {
 }
 
 void main() {
-  v_centre = a_centre;
+  v_centre = a_centre.xyz;
+  v_radius = a_centre.w;
   v_colour = a_colour;
   v_crowding = a_crowding;
   v_squares = a_squares;
   v_products = a_products;
   v_turn = a_turn;
   float w = 1.0 - a_centre.z * u_inverse_distance;
-  float reach = u_radius + 0.5 * w / u_scale;  // with the soft edge of half a pixel
+  float reach = a_centre.w + 0.5 * w / u_scale;  // with the soft edge of half a pixel
   vec2 x = extent(a_centre.x, w, reach), y = extent(a_centre.y, w, reach);
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
   vec2 place = u_scale * mix(vec2(x.x, y.x), vec2(x.y, y.y), corner);

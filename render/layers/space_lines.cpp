@@ -14,7 +14,8 @@ std::vector<Line> trail_lines(const Snapshot& snapshot, const std::vector<Flight
     const double from = std::max(piece.from, -time);
     if (from >= piece.to) continue;
     // Parts of at most a diameter, so that those beyond a periodic border move to the other end.
-    const double way = (piece.at(piece.to) - piece.at(from)).norm() / snapshot.diameter;
+    const double way =
+        (piece.at(piece.to) - piece.at(from)).norm() / (2.0 * snapshot.radius(piece.particle));
     const double parts = std::min(std::floor(way) + 1.0, kMaxParts);
     Colour colour = colours.of(snapshot, piece.particle);
     for (double k = 0.0; k < parts; ++k) {

@@ -20,7 +20,9 @@ struct Seen {
   Vec3 centre;                // view coordinates
   std::array<Vec2, 2> shape;  // rectangle around it on the picture, drawn pixels
   std::uint32_t number;
-  double distance;  // increases with the distance from the viewer
+  double distance;  // increases from each sphere to those that it hides
+  double radius;    // drawn, world units
+  double opacity;   // below 1 if it is drawn wider than it is
   bool cut;         // by a plane
 };
 
@@ -29,33 +31,39 @@ bool in_sight(const std::array<Vec2, 2>& shape, Size drawn) {
   return (high.array() > 0.0).all() && low.x() < drawn.width && low.y() < drawn.height;
 }
 
-// Equal spheres that do not overlap hide each other in the order of their distances.
-double distance_from(const Eye& eye, const Vec3& seen) {
+// See sphere_layer.h.
+double distance_from(const Eye& eye, const Vec3& seen, double radius) {
   if (eye.inverse_distance() == 0.0) return -seen.z();
-  return (seen - Vec3(0.0, 0.0, 1.0 / eye.inverse_distance())).squaredNorm();
+  return (seen - Vec3(0.0, 0.0, 1.0 / eye.inverse_distance())).squaredNorm() - radius * radius;
 }
 
 std::vector<Seen> visible(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
                           const std::optional<Slab>& slab, bool ghosts) {
-  const double radius = 0.5 * snapshot.diameter;
+  const double largest = 0.5 * snapshot.diameter;
   const DrawnRegion region = drawn_region(snapshot, slab, !ghosts);
   const DrawnRegion uncut = drawn_region(snapshot, slab, true);
   std::vector<Seen> all;
   for (std::size_t i = 0; i < snapshot.count(); ++i) {
     const Vec3 position = snapshot.positions.col(static_cast<Eigen::Index>(i));
-    visit_images(snapshot, position, [&](const Vec3& place) {
+    const double radius = snapshot.radius(i);
+    visit_images(snapshot, position, radius, [&](const Vec3& place) {
       if ((place.array() + radius <= region.low.array()).any() ||
           (place.array() - radius >= region.high.array()).any()) {
         return;
       }
       const Vec3 centre = eye.seen(place);
       if (eye.w(centre + Vec3(0.0, 0.0, radius)) < Eye::kNearest) return;
-      if (SphereLight::draws(eye, centre, radius)) return;
+      if (SphereLight::draws(eye, centre, largest)) return;
+      const double pixel = eye.w(centre) / eye.scale();
+      // A small sphere among large ones is drawn wider and fainter.
+      const bool small = eye.pixels(centre, radius) < Coverage::kLargestRadius;
+      const double wide = small ? Coverage::kLargestRadius * pixel : radius;
       // The soft edge reaches half a pixel beyond the sphere.
-      const auto shape = eye.around(centre, radius + 0.5 * eye.w(centre) / eye.scale());
+      const auto shape = eye.around(centre, wide + 0.5 * pixel);
       if (!in_sight(shape, projection.drawn())) return;
-      all.push_back({centre, shape, static_cast<std::uint32_t>(i), distance_from(eye, centre),
-                     uncut.cuts(place, radius)});
+      all.push_back({centre, shape, static_cast<std::uint32_t>(i),
+                     distance_from(eye, centre, radius), wide,
+                     small ? radius * radius / (wide * wide) : 1.0, uncut.cuts(place, wide)});
     });
   }
   std::ranges::sort(all, [](const Seen& a, const Seen& b) {
@@ -65,8 +73,8 @@ std::vector<Seen> visible(const Snapshot& snapshot, const Projection& projection
 }
 
 // The spheres that nearer ones do not hide, from back to front, by their index in `all`.
-std::vector<std::uint32_t> not_hidden(const std::vector<Seen>& all, double radius,
-                                      const Projection& projection, const Eye& eye) {
+std::vector<std::uint32_t> not_hidden(const std::vector<Seen>& all, const Projection& projection,
+                                      const Eye& eye) {
   Occlusion occlusion(projection.drawn());
   std::vector<std::uint32_t> shown;
   for (std::size_t k = all.size(); k-- > 0;) {
@@ -74,13 +82,13 @@ std::vector<std::uint32_t> not_hidden(const std::vector<Seen>& all, double radiu
     // On the picture a sphere is an ellipse in its rectangle. The smaller axis is at least that of
     // the circle of its radius around the centre, which the ellipse contains. The squares of the
     // axes have the same sum as those of the rectangle.
-    const double smaller = eye.pixels(seen.centre, radius) + 0.5;
+    const double smaller = eye.pixels(seen.centre, seen.radius) + 0.5;
     const auto& [low, high] = seen.shape;
     const double larger =
         std::sqrt(std::max(0.25 * (high - low).squaredNorm() - smaller * smaller, 0.0));
     if (occlusion.hides(0.5 * (low + high), larger)) continue;
     shown.push_back(static_cast<std::uint32_t>(k));
-    if (seen.cut) continue;
+    if (seen.cut || seen.opacity < 1.0) continue;
     occlusion.cover(eye.pixels(seen.centre), smaller - 1.0);
   }
   std::ranges::reverse(shown);
@@ -153,7 +161,7 @@ void SphereLayer::read_from(std::size_t first) const {
     gl_->VertexAttribPointer(index, size, type, type != GL_FLOAT, sizeof(Sphere),
                              reinterpret_cast<const void*>(first * sizeof(Sphere) + offset));
   };
-  attribute(0, 3, offsetof(Sphere, centre));
+  attribute(0, 4, offsetof(Sphere, centre));
   attribute(1, 4, offsetof(Sphere, light), GL_UNSIGNED_SHORT);
   attribute(2, 4, offsetof(Sphere, crowding));
   attribute(3, 3, offsetof(Sphere, squares));
@@ -165,11 +173,16 @@ void SphereLayer::collect(const Snapshot& snapshot, const Projection& projection
                           const DiskColours& colours, const std::optional<Slab>& slab,
                           bool ghosts) {
   const std::vector<Seen> all = visible(snapshot, projection, eye, slab, ghosts);
-  std::vector<std::uint32_t> shown = not_hidden(all, 0.5 * snapshot.diameter, projection, eye);
+  std::vector<std::uint32_t> shown = not_hidden(all, projection, eye);
   join_runs(shown, all, projection.drawn());
   std::vector<Vec3> centres;
-  for (const Seen& seen : all) centres.push_back(seen.centre);
-  const std::vector<NeighbourShade> shades = neighbour_shades(centres, shown, snapshot.diameter);
+  std::vector<double> radii = {0.5 * snapshot.diameter};  // one for all
+  if (!snapshot.grains.empty()) radii.clear();
+  for (const Seen& seen : all) {
+    centres.push_back(seen.centre);
+    if (!snapshot.grains.empty()) radii.push_back(snapshot.radius(seen.number));
+  }
+  const std::vector<NeighbourShade> shades = neighbour_shades(centres, radii, shown);
   const Eigen::Quaterniond world_of_view(Eigen::Matrix3d(eye.axes().transpose()));
   spheres_.clear();
   runs_.clear();
@@ -183,8 +196,11 @@ void SphereLayer::collect(const Snapshot& snapshot, const Projection& projection
     if (!snapshot.orientations.empty()) {
       turn = (snapshot.orientations[seen.number].conjugate() * world_of_view).cast<float>();
     }
-    spheres_.push_back({as_floats(seen.centre),
-                        light_of(colours.of(snapshot, seen.number)),
+    Light light = light_of(colours.of(snapshot, seen.number));
+    light[3] = static_cast<std::uint16_t>(std::lround(seen.opacity * light[3]));
+    const auto [at_x, at_y, at_z] = as_floats(seen.centre);
+    spheres_.push_back({{at_x, at_y, at_z, static_cast<float>(seen.radius)},
+                        light,
                         {x, y, z, shade.weight},
                         as_floats(shade.squares),
                         as_floats(shade.products),
@@ -199,7 +215,6 @@ void SphereLayer::set_uniforms(const Program& program, const Snapshot& snapshot,
   const DrawnRegion faint = drawn_region(snapshot, slab, !ghosts);
   program.use();
   set_eye(*gl_, program, snapshot.box, projection, eye);
-  gl_->Uniform1f(program.uniform("u_radius"), 0.5 * snapshot.diameter);
   gl_->Uniform1f(program.uniform("u_samples"), projection.samples);
   set_vector(*gl_, program, "u_low", region.low);
   set_vector(*gl_, program, "u_high", region.high);

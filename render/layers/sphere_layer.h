@@ -12,9 +12,12 @@
 #include "render/layers/disk_colours.h"
 
 // Spheres. An Eye maps the world to view coordinates, and these to pixels and depths. Each sphere
-// is a rectangle; sphere.frag finds the point where the ray of a pixel meets the sphere. Equal
-// spheres that do not overlap hide each other in the order of their distances. So they are drawn
-// from back to front, and their soft edges blend with the spheres behind. Occlusion has a bit for
+// is a rectangle; sphere.frag finds the point where the ray of a pixel meets the sphere. Spheres
+// that do not overlap hide each other in the order of |c - e|^2 - r^2, with the viewer at e. The
+// reason is the plane on which two spheres have equal values: it is between them, and the sphere
+// with the smaller value is on the side of the viewer. No ray from the viewer crosses this plane
+// twice. For a distant viewer this is the order of depths. So spheres are drawn from back to front,
+// and their soft edges blend with the spheres behind. Occlusion has a bit for
 // each pixel, and leaves out hidden spheres. Cut spheres need a slower shader, so they are drawn in
 // runs of their own. NeighbourShade is the ambient occlusion of a sphere by its neighbours, to
 // second order in the normal. It depends on no pixel, so it is the same at all sizes. Planes of a
@@ -39,7 +42,7 @@ class SphereLayer {
 
  private:
   struct Sphere {
-    std::array<float, 3> centre;  // view coordinates
+    std::array<float, 4> centre;  // view coordinates, and the radius
     Light light;
     std::array<float, 4> crowding;  // direction and weight of its NeighbourShade
     std::array<float, 3> squares, products;

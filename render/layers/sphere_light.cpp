@@ -62,10 +62,16 @@ void SphereLight::draw(const Snapshot& snapshot, const Projection& projection, c
   sort();
   const float largest = std::ranges::max(small_, {}, &Small::radius).radius;
   coverage_.restart(projection.drawn(), largest);
+  const bool alike = snapshot.grains.empty();
   for (const Small& sphere : sorted_) {
-    // A smaller sphere is drawn wider and fainter.
+    const Colour colour = colours.of(snapshot, sphere.number);
     const float share = sphere.radius / largest;
-    coverage_.add({sphere.x, sphere.y}, colours.of(snapshot, sphere.number), share * share);
+    if (alike) {
+      // A more distant sphere is drawn wider and fainter.
+      coverage_.add({sphere.x, sphere.y}, colour, share * share);
+    } else {
+      coverage_.add({sphere.x, sphere.y}, colour, 1.0f, share);
+    }
   }
   coverage_.compose(mean_light(eye));
   gl_->Disable(GL_DEPTH_TEST);
@@ -76,7 +82,7 @@ void SphereLight::draw(const Snapshot& snapshot, const Projection& projection, c
 
 void SphereLight::collect(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
                           const std::optional<Slab>& slab, std::span<const Slice> slices) {
-  const double radius = 0.5 * snapshot.diameter;
+  const double largest = 0.5 * snapshot.diameter;
   const Vec2 high(projection.drawn().width + Coverage::kLargestRadius,
                   projection.drawn().height + Coverage::kLargestRadius);
   const DrawnRegion region = drawn_region(snapshot, slab, true);
@@ -85,7 +91,7 @@ void SphereLight::collect(const Snapshot& snapshot, const Projection& projection
   for (std::size_t i = 0; i < snapshot.count(); ++i) {
     const Vec3 position = snapshot.positions.col(static_cast<Eigen::Index>(i));
     const Vec3 seen = eye.seen(position);
-    if (eye.w(seen) < Eye::kNearest || !draws(eye, seen, radius)) continue;
+    if (eye.w(seen) < Eye::kNearest || !draws(eye, seen, largest)) continue;
     const Vec2 centre = eye.pixels(seen);
     if ((centre.array() < -Coverage::kLargestRadius).any() ||
         (centre.array() > high.array()).any() || region.cuts(position, 0.0)) {
@@ -94,8 +100,8 @@ void SphereLight::collect(const Snapshot& snapshot, const Projection& projection
     const auto hidden = [&](const Slice& slice) { return hides(slice, position, box, eye); };
     if (std::ranges::any_of(slices, hidden)) continue;
     small_.push_back({static_cast<float>(centre.x()), static_cast<float>(centre.y()),
-                      static_cast<float>(eye.pixels(seen, radius)), static_cast<float>(-seen.z()),
-                      static_cast<std::uint32_t>(i)});
+                      static_cast<float>(eye.pixels(seen, snapshot.radius(i))),
+                      static_cast<float>(-seen.z()), static_cast<std::uint32_t>(i)});
   }
 }
 

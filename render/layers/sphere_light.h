@@ -13,12 +13,14 @@ namespace clatter {
 
 /// Draws spheres that are too small on the picture for a shape, as their light and area in each
 /// pixel. Nearer ones hide the share of a pixel that they cover. Each has the mean light of a
-/// sphere without neighbours.
+/// sphere without neighbours. In a mixture these are all spheres behind the plane across the view
+/// from which on the largest ones are too small.
 class SphereLight {
  public:
-  /// Whether a sphere is so small, by its centre in view coordinates.
-  static bool draws(const Eye& eye, const Vec3& centre, double radius) {
-    return eye.pixels(centre, radius) < Coverage::kLargestRadius;
+  /// Whether it draws a sphere, by its centre in view coordinates. `largest` is the radius of the
+  /// largest spheres.
+  static bool draws(const Eye& eye, const Vec3& centre, double largest) {
+    return eye.pixels(centre, largest) < Coverage::kLargestRadius;
   }
   /// Whether some spheres in the box of a snapshot may be so small.
   static bool draws(const Eye& eye, const Snapshot& snapshot);

@@ -22,7 +22,7 @@ double covered(const NeighbourShade& shade, const Eigen::Vector3f& n) {
 std::vector<NeighbourShade> all_shades(const std::vector<Vec<3>>& centres) {
   std::vector<std::uint32_t> all(centres.size());
   std::iota(all.begin(), all.end(), 0u);
-  return neighbour_shades(centres, all, 1.0);
+  return neighbour_shades(centres, std::vector{0.5}, all);
 }
 
 }  // namespace
@@ -61,6 +61,48 @@ TEST_CASE("Neighbour shade: all neighbours within 1.75 diameters count, and no o
     CHECK((shades[i].direction.cast<double>() - direction).norm() < 1e-4 * (1.0 + weight));
     CHECK(shades[i].squares.sum() == doctest::Approx(weight).epsilon(1e-5));
   }
+}
+
+TEST_CASE("Neighbour shade: unequal spheres count by their own radius, up to the same gap") {
+  // Random places and radii of four sizes, compared with all pairs.
+  std::vector<Vec<3>> centres;
+  std::vector<double> radii;
+  std::uint32_t state = 20240716;
+  const auto random = [&] { return (state = 1664525u * state + 1013904223u) / 4294967296.0; };
+  for (int k = 0; k < 300; ++k) {
+    centres.emplace_back(8.0 * random(), 3.0 * random(), 5.0 * random());
+    radii.push_back(std::vector{0.1, 0.25, 0.7, 2.0}[static_cast<std::size_t>(k % 17) % 4]);
+  }
+  std::vector<std::uint32_t> all(centres.size());
+  std::iota(all.begin(), all.end(), 0u);
+  const std::vector<NeighbourShade> shades = neighbour_shades(centres, radii, all);
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    double weight = 0.0;
+    Vec<3> direction = Vec<3>::Zero();
+    for (std::size_t j = 0; j < centres.size(); ++j) {
+      const Vec<3> offset = centres[j] - centres[i];
+      const double distance = offset.norm(), gap = distance - radii[i] - radii[j];
+      // Of equal spheres at a distance of 1.75 diameters the gap is 1.5 radii.
+      if (i == j || gap >= 1.5 * radii[j]) continue;
+      const double fade = std::min(1.0, 4.0 * (1.0 - (gap / radii[j] + 2.0) / 3.5));
+      const double factor = 1.0 + std::min(1.0, radii[i] / radii[j]);
+      const double w = fade * factor * std::pow(radii[j] / distance, 2);
+      weight += w;
+      direction += w / distance * offset;
+    }
+    CHECK(shades[i].weight == doctest::Approx(weight).epsilon(1e-5));
+    CHECK((shades[i].direction.cast<double>() - direction).norm() < 1e-4 * (1.0 + weight));
+  }
+}
+
+TEST_CASE(
+    "Neighbour shade: a large one that touches covers the sky, a small one hardly any of it") {
+  const std::vector<Vec<3>> centres = {{0.0, 0.0, 0.0}, {5.5, 0.0, 0.0}};
+  const std::vector<double> radii = {0.5, 5.0};
+  const std::vector<NeighbourShade> shades =
+      neighbour_shades(centres, radii, std::vector<std::uint32_t>{0, 1});
+  CHECK(shades[0].weight == doctest::Approx(1.1 * 25.0 / (5.5 * 5.5)));
+  CHECK(shades[1].weight == doctest::Approx(2.0 * 0.25 / (5.5 * 5.5)));
 }
 
 }  // namespace clatter

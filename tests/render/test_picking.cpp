@@ -123,4 +123,35 @@ TEST_CASE("Picking: nothing behind the viewer is picked, and a disk needs no dep
   CHECK_FALSE(particle_at(disks, above, {400.0 + 151.0, 300.0 + 200.0}, {}));
 }
 
+TEST_CASE("Picking: of particles of different sizes each is picked inside its own radius") {
+  Snapshot disks;
+  disks.box = Vec2(12.0, 12.0);
+  disks.diameter = 4.0;
+  disks.positions = as_columns<2>({{4.0, 5.0}, {6.4, 5.0}});
+  disks.grains = {{.radius = 2.0}, {.radius = 0.4, .species = 1}};
+  const Eye above({{{4.0, 5.0}, 8.0}, kPickingSize});  // 100 pixels a unit, the first at 400, 300
+  CHECK(particle_at(disks, above, {400.0 + 199.0, 300.0}, {}) == 0u);
+  CHECK(particle_at(disks, above, {400.0 + 201.0, 300.0}, {}) == 1u);
+  CHECK(particle_at(disks, above, {400.0 + 279.0, 300.0}, {}) == 1u);
+  CHECK_FALSE(particle_at(disks, above, {400.0 + 281.0, 300.0}, {}));
+  CHECK_FALSE(particle_at(disks, above, {400.0 + 240.0, 300.0 + 41.0}, {}));
+
+  // A small sphere before a large one, seen along z.
+  Snapshot spheres = disks;
+  spheres.box = Vec3(12.0, 12.0, 12.0);
+  spheres.positions = as_columns<3>({{4.0, 5.0, 6.0}, {4.5, 5.0, 9.0}});
+  const Eye before({{{4.0, 5.0}, 8.0, {.z = 6.0}}, kPickingSize});
+  CHECK(particle_at(spheres, before, {400.0 + 50.0 + 39.0, 300.0}, {}) == 1u);
+  CHECK(particle_at(spheres, before, {400.0 + 50.0 + 41.0, 300.0}, {}) == 0u);
+  CHECK(particle_at(spheres, before, {400.0 - 199.0, 300.0}, {}) == 0u);
+  CHECK_FALSE(particle_at(spheres, before, {400.0 - 201.0, 300.0}, {}));
+  spheres.positions(2, 1) = 3.0;  // behind
+  CHECK(particle_at(spheres, before, {400.0 + 50.0, 300.0}, {}) == 0u);
+  // Across a periodic border, only as far as its own radius.
+  spheres.positions = as_columns<3>({{1.0, 5.0, 6.0}, {1.0, 9.0, 6.0}});
+  const Eye border({{{0.0, 5.0}, 16.0, {.z = 6.0}}, kPickingSize});  // 50 pixels a unit
+  CHECK(particle_at(spheres, border, {400.0 + 50.0 * 12.5, 300.0}, {}) == 0u);
+  CHECK_FALSE(particle_at(spheres, border, {400.0 - 50.0 * 0.5, 300.0 + 50.0 * 4.0}, {}));
+}
+
 }  // namespace clatter
