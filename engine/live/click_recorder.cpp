@@ -4,6 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/physics/elementary.h"
+#include "engine/physics/quantile.h"
+
 namespace clatter {
 
 template <int D>
@@ -16,22 +19,30 @@ std::vector<Click> ClickRecorder<D>::take() {
 template <int D>
 void ClickRecorder<D>::on_collision(const PairCollision<D>& collision) {
   const ParticleChange<D>& first = collision.particles[0];
-  add(first.position - 0.5 * collision.separation, first.gain.momentum, 0.5);
+  const Grain &one = simulation_.grain(first.particle),
+              &other = simulation_.grain(collision.particles[1].particle);
+  const double reduced = one.mass * other.mass / (one.mass + other.mass);
+  const double share = one.radius / (one.radius + other.radius);
+  add(first.position - share * collision.separation, first.gain.momentum, 2.0 * reduced, reduced);
 }
 
 template <int D>
 void ClickRecorder<D>::on_wall(const WallCollision<D>& collision) {
-  add(collision.particle.position, collision.particle.gain.momentum, 1.0);
+  const double mass = simulation_.grain(collision.particle.particle).mass;
+  add(collision.particle.position, collision.particle.gain.momentum, mass, mass);
 }
 
 template <int D>
-void ClickRecorder<D>::add(const Vec<D>& contact, const Vec<D>& momentum, double reduced_mass) {
+void ClickRecorder<D>::add(const Vec<D>& contact, const Vec<D>& momentum, double mass,
+                           double reduced_mass) {
   if (++skipped_ < stride_) return;
   skipped_ = 0;
   const Model<D>& model = simulation_.model();
   const double square = momentum.squaredNorm();
   const double place = model.domain().wrapped(contact)[0] / model.box[0];
-  clicks_.push_back({simulation_.time(), std::clamp(place, 0.0, 1.0), std::sqrt(square),
+  double frequency = std::sqrt(square);
+  if (simulation_.is_mixture()) frequency *= exponential(-(1.0 + 1.0 / D) * natural_log(mass));
+  clicks_.push_back({simulation_.time(), std::clamp(place, 0.0, 1.0), frequency,
                      static_cast<double>(stride_) * square / (8.0 * reduced_mass)});
   if (clicks_.size() == most_) thin_out();
 }

@@ -11,9 +11,13 @@ namespace clatter {
 
 /// The sound of a collision.
 struct Click {
-  double time = 0.0;     ///< simulation time
-  double place = 0.5;    ///< x of the contact as a share of the box, 0..1
-  double impulse = 0.0;  ///< magnitude J
+  double time = 0.0;   ///< simulation time
+  double place = 0.5;  ///< x of the contact as a share of the box, 0..1
+  /// Relative frequency J / M^(1 + 1/D), with the magnitude J of the impulse. M is the mass at a
+  /// wall, and twice the reduced mass mu of two particles; all masses 1: J. It is the speed J/M
+  /// over the size M^(1/D), because bodies of one material and shape vibrate with the inverse of
+  /// their sizes.
+  double frequency = 0.0;
   /// J^2 / 8 mu, with the reduced mass mu of both partners. In an elastic collision it is the
   /// energy of the relative motion along the impulse.
   double energy = 0.0;
@@ -21,7 +25,7 @@ struct Click {
   /// Visits the members that a checkpoint keeps.
   template <class Archive>
   void visit(Archive& io) {
-    io(time, place, impulse, energy);
+    io(time, place, frequency, energy);
   }
 };
 
@@ -41,7 +45,7 @@ class ClickRecorder final : private Observer<D> {
  private:
   void on_collision(const PairCollision<D>& collision) override;
   void on_wall(const WallCollision<D>& collision) override;
-  void add(const Vec<D>& contact, const Vec<D>& momentum, double reduced_mass);
+  void add(const Vec<D>& contact, const Vec<D>& momentum, double mass, double reduced_mass);
   void thin_out();
 
   const Simulation<D>& simulation_;

@@ -24,7 +24,7 @@ double frequency_of(int pitch) {
   return Synthesiser::kMiddle * std::exp2((pitch - Synthesiser::kBelow) / 12.0);
 }
 
-// The pitch is proportional to the impulse.
+// The number of the resonator with a frequency nearest to a ratio to the middle one.
 int pitch_of(double ratio) {
   if (!(ratio > 0.0)) return 0;
   const double semitones = 12.0 * natural_log(ratio) / std::numbers::ln2;
@@ -53,7 +53,7 @@ long samples_before(long frame, double fps) {
 void ClickSums::add(std::span<const Click> clicks) {
   count_ += static_cast<long>(clicks.size());
   for (const Click& click : clicks) {
-    squares_ += click.impulse * click.impulse;
+    squares_ += click.frequency * click.frequency;
     energies_ += click.energy;
   }
 }
@@ -81,9 +81,10 @@ void Synthesiser::use(const SoundScale& scale) {
 void Synthesiser::add(const Click& click, double seconds) {
   const double sample = std::floor(seconds * kSampleRate);
   const double amplitude = gain_ * std::sqrt(click.energy / scale_.energy);
-  strikes_.push_back(
-      {std::max(static_cast<std::int64_t>(sample), next_), pitch_of(click.impulse / scale_.impulse),
-       amplitude * std::sqrt(1.0 - click.place), amplitude * std::sqrt(click.place)});
+  strikes_.push_back({std::max(static_cast<std::int64_t>(sample), next_),
+                      pitch_of(click.frequency / scale_.frequency),
+                      amplitude * std::sqrt(1.0 - click.place),
+                      amplitude * std::sqrt(click.place)});
 }
 
 // Limits a level below kCeiling. The gain of the limiter falls at once and recovers slowly.

@@ -25,16 +25,16 @@ using StereoSample = std::array<std::int16_t, 2>;
 /// The number of samples before a frame of a film.
 long samples_before(long frame, double fps);
 
-/// Units of impulse and energy, and density of clicks.
+/// Units of frequency and energy, and density of clicks.
 struct SoundScale {
-  double impulse = 1.0;  ///< has the middle pitch, > 0
-  double energy = 1.0;   ///< has amplitude 1 before the gain, > 0
-  double rate = 0.0;     ///< clicks per second of film
+  double frequency = 1.0;  ///< Click::frequency of the middle pitch, > 0
+  double energy = 1.0;     ///< has amplitude 1 before the gain, > 0
+  double rate = 0.0;       ///< clicks per second of film
 
   /// Visits the members that a checkpoint keeps.
   template <class Archive>
   void visit(Archive& io) {
-    io(impulse, energy, rate);
+    io(frequency, energy, rate);
   }
 };
 
@@ -45,13 +45,13 @@ class ClickSums {
   void add(std::span<const Click> clicks);
   /// Number of clicks.
   long count() const { return count_; }
-  /// The scale: root mean square impulse, mean energy, and the rate over `seconds` of film. Without
-  /// clicks that have an impulse it is the default scale.
+  /// The scale: root mean square frequency, mean energy, and the rate over `seconds` of film.
+  /// Without clicks that have a frequency it is the default scale.
   SoundScale scale(double seconds) const;
 
  private:
   long count_ = 0;
-  double squares_ = 0.0, energies_ = 0.0;  // sums of squared impulses and of energies
+  double squares_ = 0.0, energies_ = 0.0;  // sums of squared frequencies and of energies
 };
 
 /// Turns clicks into sound. A click excites a resonator, which decays within a few periods. There

@@ -65,7 +65,7 @@ void check_stretches(const Stretches& heard, const Scene& scene, double from, do
   REQUIRE(clicks.size() == expected.size());
   for (std::size_t k = 0; k < clicks.size(); ++k) {
     CHECK(clicks[k].time == doctest::Approx(expected[k].time).epsilon(1e-12));
-    CHECK(clicks[k].impulse == doctest::Approx(expected[k].impulse).epsilon(1e-12));
+    CHECK(clicks[k].frequency == doctest::Approx(expected[k].frequency).epsilon(1e-12));
     CHECK(clicks[k].energy == doctest::Approx(expected[k].energy).epsilon(1e-12));
     CHECK(clicks[k].place == doctest::Approx(expected[k].place).epsilon(1e-12));
   }
@@ -163,7 +163,7 @@ TEST_CASE("Listening: of many clicks a bounded number remains, evenly and with t
     for (std::size_t k = 0; k < kept.size(); ++k) {
       const Click& original = clicks[stride * (k + 1) - 1];
       CHECK(kept[k].time == original.time);
-      CHECK(kept[k].impulse == original.impulse);
+      CHECK(kept[k].frequency == original.frequency);
       CHECK(kept[k].energy == static_cast<double>(stride) * original.energy);
     }
   }

@@ -123,11 +123,11 @@ TEST_CASE("Synthesiser: any number of clicks has the same loudness and does not 
 
 TEST_CASE(
     "Synthesiser: a scale without clicks is the default, and equal clicks are in the middle") {
-  CHECK(ClickSums().scale(2.0).impulse == 1.0);
+  CHECK(ClickSums().scale(2.0).frequency == 1.0);
   ClickSums sums;
   const std::vector<Click> clicks(6, {0.0, 0.5, 3.0, 4.5});
   sums.add(clicks);
-  CHECK(sums.scale(2.0).impulse == doctest::Approx(3.0));
+  CHECK(sums.scale(2.0).frequency == doctest::Approx(3.0));
   CHECK(sums.scale(2.0).energy == doctest::Approx(4.5));
   CHECK(sums.scale(2.0).rate == doctest::Approx(3.0));
 }
