@@ -270,7 +270,10 @@ void MouseTools::mark(ImDrawList& list, const Frame& frame, const WindowMap& map
   if (!target_ || target_->place.size() != frame.snapshot.box.size()) return;
   const Tool tool = press_ ? press_->tool : *tool_;
   const ImU32 ink = packed(colour_of(tool));
-  const double size = has_circle(tool) ? radius(*frame.scene) : 0.5 * frame.snapshot.diameter;
+  const Snapshot& gas = frame.snapshot;
+  const bool known = target_->particle && *target_->particle < gas.count();
+  const double of_particle = known ? gas.radius(*target_->particle) : 0.5 * gas.diameter;
+  const double size = has_circle(tool) ? radius(*frame.scene) : of_particle;
   if (const auto outline = map.outline(target_->place, size)) {
     const auto& [centre, radius] = *outline;
     constexpr ImU32 kFaint = 0x30000000, kRgb = 0x00ffffff;

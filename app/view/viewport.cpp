@@ -217,20 +217,20 @@ bool Viewport::drag_or_click(const Frame& frame, View& view, const WindowMap& ma
 
 void Viewport::mark(ImDrawList& list, const Frame& frame, const WindowMap& map) const {
   const Snapshot& gas = frame.snapshot;
-  const auto ring = [&](const VecX& position, ImU32 ink) {
-    const auto outline = map.outline(position, 0.5 * gas.diameter);
+  const auto ring = [&](std::size_t number, const VecX& position, ImU32 ink) {
+    const auto outline = map.outline(position, gas.radius(number));
     if (outline) list.AddCircle(outline->centre, outline->radius + 2.0f, ink, 0, 2.5f);
   };
   if (picked_ && *picked_ < gas.count()) {
-    ring(gas.positions.col(static_cast<Eigen::Index>(*picked_)), packed(accent_colour()));
+    ring(*picked_, gas.positions.col(static_cast<Eigen::Index>(*picked_)), packed(accent_colour()));
   }
   if (!frame.partners) return;
   // The pair touches, if need be across a periodic border.
   const auto [first, second] = *frame.partners;
   if (std::max(first, second) >= gas.count()) return;
   constexpr ImU32 kPair = IM_COL32(255, 214, 90, 255);
-  ring(gas.positions.col(first), kPair);
-  ring(nearest_image(gas, gas.positions.col(first), gas.positions.col(second)), kPair);
+  ring(first, gas.positions.col(first), kPair);
+  ring(second, nearest_image(gas, gas.positions.col(first), gas.positions.col(second)), kPair);
 }
 
 }  // namespace clatter
