@@ -12,7 +12,7 @@
 #include "tests/render/optional_context.h"
 #include "tests/support/golden_picture.h"
 
-// Pictures of nine scenes, kept in assets/golden. Where a change of the looks is meant,
+// Pictures of eleven scenes, kept in assets/golden. Where a change of the looks is meant,
 //   CLATTER_WRITE_GOLDEN=1 build/release/tests/render_tests -tc='Golden*EGL*'
 // draws them again; look at each before it is kept.
 
@@ -128,7 +128,49 @@ constexpr std::array kGolden = {Golden{"driven", R"(
         azimuth = -120.0
         elevation = -15.0
         camera = [{ time = 0.0 }, { time = 4.0, centre = [4.0, 5.0, 3.0], width = 14.0, azimuth = -60.0, elevation = 20.0 }])",
-                                       2.0}};
+                                       2.0},
+                                Golden{"mixture", R"(
+        title = "Mixture"
+        box.size = [16.0, 12.0]
+        particles = { restitution = 0.9 }
+        walls.left = { kind = "driven", drive_speed = 1.0 }
+        walls.right = { kind = "static" }
+        [[species]]
+        name = "small"
+        count = 60
+        [[species]]
+        name = "large"
+        count = 8
+        diameter = 2.5
+        [[species]]
+        name = "dust"
+        count = 80
+        diameter = 0.15
+        [view]
+        colour_by = "species"
+        trails = 0.4)",
+                                       2.0},
+                                Golden{"unequal", R"(
+        box.size = [10.0, 7.0, 8.0]
+        particles = { restitution = 0.9 }
+        walls.left = { kind = "static" }
+        walls.right = { kind = "static" }
+        [[species]]
+        name = "small"
+        count = 150
+        diameter = 0.8
+        [[species]]
+        name = "large"
+        count = 12
+        diameter = 2.4
+        colour = "#e0a020"
+        polydispersity = { kind = "uniform", width = 0.2 }
+        [view]
+        colour_by = "species"
+        slab = { axis = "z", from = 0.0, to = 6.0 }
+        azimuth = 30.0
+        elevation = 20.0)",
+                                       1.0}};
 
 constexpr Size kGoldenSize{320, 240};
 
