@@ -42,11 +42,11 @@ IntVec<D> few_cells() {
 
 /// A watched run of a mixture with walls, gravity, kicks and spins.
 template <int D>
-struct WatchedCells {
+struct Watched {
   Simulation<D> simulation;
   CellIntegrals<D> cells;
 
-  WatchedCells(std::uint64_t seed, Coarsening coarsening)
+  Watched(std::uint64_t seed, Coarsening coarsening)
       : simulation(with_species(with_contact_time(kicked(everything<D>(), 0.17, 0.1), 0.01)),
                    mixed_gas(everything<D>(), 24, seed, 2.0)),
         cells(simulation, few_cells<D>(),
@@ -68,7 +68,7 @@ double or_zero(double value) {
 TEST_CASE_TEMPLATE("Species fields: densities, momenta and temperatures add up in every cell",
                    Dimension, Plane, Space) {
   constexpr int D = Dimension::value;
-  WatchedCells<D> run(61, {Estimator::Exact, {}});
+  Watched<D> run(61, {Estimator::Exact, {}});
   for (const double end : {0.4, 3.0, 40.0}) {
     run.simulation.run_until(end);
     const CellSums sums = run.cells.close_window();
@@ -104,7 +104,7 @@ TEST_CASE_TEMPLATE("Species fields: densities, momenta and temperatures add up i
 TEST_CASE_TEMPLATE("Species fields: a snapshot has the densities and temperatures of the state",
                    Dimension, Plane, Space) {
   constexpr int D = Dimension::value;
-  WatchedCells<D> run(62, {Estimator::Snapshot, {}});
+  Watched<D> run(62, {Estimator::Snapshot, {}});
   run.simulation.run_until(7.0);
   run.cells.sample();
   const State<D> state = run.simulation.state();
@@ -151,7 +151,7 @@ TEST_CASE_TEMPLATE("Species fields: a snapshot has the densities and temperature
 TEST_CASE_TEMPLATE("Species fields: the flow of a species moves its mean place", Dimension, Plane,
                    Space) {
   constexpr int D = Dimension::value;
-  WatchedCells<D> run(63, {Estimator::Exact, {}});
+  Watched<D> run(63, {Estimator::Exact, {}});
   const auto places = [&] {
     const State<D> state = run.simulation.state();
     std::vector<Vec<D>> sums(kSpecies, Vec<D>::Zero());

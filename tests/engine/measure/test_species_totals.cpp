@@ -18,7 +18,7 @@ using namespace testing;
 
 namespace {
 
-constexpr std::size_t kSpeciesOfTotals = 3;  // of mixed_gas
+constexpr std::size_t kSpecies = 3;  // of mixed_gas
 
 bool close(double a, double b, double scale) {
   return std::fabs(a - b) <= 1e-12 * scale;
@@ -55,7 +55,7 @@ class Witness : public Observer<D> {
   }
 
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> counts, elasticised, lost;
-  std::array<double, kSpeciesOfTotals> walls_in{}, bulk_in{};
+  std::array<double, kSpecies> walls_in{}, bulk_in{};
 
  private:
   static double energy(const Grain& grain, const Vec<D>& v, const Spin<D>& spin) {
@@ -84,12 +84,12 @@ TEST_CASE_TEMPLATE("Species totals: their sums are the totals", Dimension, Plane
     simulation.run_until(2.5 * k);
     const WindowTotals<D> all = totals.close_window();
     const SpeciesTotalsWindow<D> parts = species.close_window();
-    REQUIRE(parts.species.size() == kSpeciesOfTotals);
+    REQUIRE(parts.species.size() == kSpecies);
     REQUIRE(parts.pairs.size() == 6);
     CHECK(parts.duration == all.duration);
     Vec<D> temperature = Vec<D>::Zero();
     double spin = 0.0, walls = 0.0, kicks = 0.0;
-    for (std::size_t s = 0; s < kSpeciesOfTotals; ++s) {
+    for (std::size_t s = 0; s < kSpecies; ++s) {
       const double share = static_cast<double>(species.counts()[s]) / 24.0;
       temperature += share * parts.species[s].temperature;
       spin += share * parts.species[s].spin_temperature;
@@ -129,10 +129,10 @@ TEST_CASE_TEMPLATE("Species totals: every booking goes to its species and its pa
   const SpeciesTotalsWindow<D> window = species.close_window();
   double turnover = 0.0;
   for (const auto& [key, lost] : witness.lost) turnover += lost;
-  for (std::uint32_t a = 0; a < kSpeciesOfTotals; ++a) {
+  for (std::uint32_t a = 0; a < kSpecies; ++a) {
     CHECK(std::fabs(window.species[a].walls_in - witness.walls_in[a]) < 1e-10 * turnover);
     CHECK(std::fabs(window.species[a].bulk_in - witness.bulk_in[a]) < 1e-10 * turnover);
-    for (std::uint32_t b = a; b < kSpeciesOfTotals; ++b) {
+    for (std::uint32_t b = a; b < kSpecies; ++b) {
       const PairWindow& pair = window.pairs[pair_index(b, a)];
       REQUIRE(witness.counts[{a, b}] > 10.0);
       CHECK(pair.collisions == witness.counts[{a, b}]);
@@ -154,8 +154,8 @@ class Times : public EventTimes {
 /// observers, at the two points between successive events at which cubic polynomials have their
 /// exact mean (Gauss).
 struct BruteForce {
-  std::array<Vec2, kSpeciesOfTotals> squares{}, positions{};
-  std::array<double, kSpeciesOfTotals> counts{};
+  std::array<Vec2, kSpecies> squares{}, positions{};
+  std::array<double, kSpecies> counts{};
 
   BruteForce(Simulation<2>& simulation, const std::vector<double>& events, double begin,
              double end) {
@@ -181,7 +181,7 @@ struct BruteForce {
       if (event > begin && event < end) add(event);
     }
     add(end);
-    for (std::size_t s = 0; s < kSpeciesOfTotals; ++s) {
+    for (std::size_t s = 0; s < kSpecies; ++s) {
       squares[s] /= counts[s] * (end - begin);
       positions[s] /= counts[s] * (end - begin);
     }
@@ -212,7 +212,7 @@ TEST_CASE("Species totals: temperatures and mean positions are exact time averag
   for (std::size_t k = 0; k < ends.size(); ++k) {
     CAPTURE(k);
     const BruteForce expected(*again, times.times, begin, ends[k]);
-    for (std::size_t s = 0; s < kSpeciesOfTotals; ++s) {
+    for (std::size_t s = 0; s < kSpecies; ++s) {
       CAPTURE(s);
       const SpeciesWindow<2>& one = windows[k].species[s];
       CHECK((one.temperature - expected.squares[s]).norm() < 1e-8 * one.temperature.norm());
@@ -232,7 +232,7 @@ TEST_CASE("Measurement: the results of species add up to those of the gas") {
   CHECK(measurement.means().pairs.size() == 6);
   simulation->run_until(43.0);
   const Measured result = measurement.result();
-  REQUIRE(result.species.size() == kSpeciesOfTotals);
+  REQUIRE(result.species.size() == kSpecies);
   REQUIRE(result.pairs.size() == 6);
   double temperature = 0.0, spin = 0.0, walls = 0.0, kicks = 0.0, collisions = 0.0, lost = 0.0;
   double elasticised = 0.0;
