@@ -71,7 +71,7 @@ TEST_CASE("Neighbour shade: unequal spheres count by their own radius, up to the
   const auto random = [&] { return (state = 1664525u * state + 1013904223u) / 4294967296.0; };
   for (int k = 0; k < 300; ++k) {
     centres.emplace_back(8.0 * random(), 3.0 * random(), 5.0 * random());
-    radii.push_back(std::vector{0.1, 0.25, 0.7, 2.0}[static_cast<std::size_t>(k % 17) % 4]);
+    radii.push_back(std::vector{0.1, 0.12, 0.7, 2.0}[static_cast<std::size_t>(k % 17) % 4]);
   }
   std::vector<std::uint32_t> all(centres.size());
   std::iota(all.begin(), all.end(), 0u);
