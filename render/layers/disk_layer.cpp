@@ -19,11 +19,18 @@ double radius_pixels(const Snapshot& snapshot, const Projection& projection) {
   return 0.5 * snapshot.diameter * projection.scale();
 }
 
-bool in_sight(const Vec2& centre, double reach, const Projection& projection) {
-  const Size drawn = projection.drawn();
-  return (centre.array() > -reach).all() && centre.x() < drawn.width + reach &&
-         centre.y() < drawn.height + reach;
-}
+// The centres from which a disk reaches into a picture.
+struct Sight {
+  Vec2 low, high;
+
+  Sight(const Projection& projection, double radius)
+      : low(Vec2::Constant(-(radius + kSoftEdge))),
+        high(projection.drawn().width + radius + kSoftEdge,
+             projection.drawn().height + radius + kSoftEdge) {}
+  bool contains(const Vec2& centre) const {
+    return (centre.array() > low.array()).all() && (centre.array() < high.array()).all();
+  }
+};
 
 // The radius of the largest disks that have a coverage, if there is one.
 double largest_covered(const Snapshot& snapshot, const Projection& projection) {
@@ -58,14 +65,19 @@ void visit_disks(const Snapshot& snapshot, const Projection& projection, const T
     if (place > length - radius) shifted((first - 1) * length);
   };
 
+  const bool alike = snapshot.grains.empty();
+  double radius = 0.5 * snapshot.diameter;
+  Sight sight(projection, radius * projection.scale());
   for (std::size_t i = 0; i < snapshot.count(); ++i) {
     const Vec2 place = snapshot.positions.col(static_cast<Eigen::Index>(i));
-    const double radius = snapshot.radius(i);
-    const double reach = radius * projection.scale() + kSoftEdge;
+    if (!alike) {
+      radius = snapshot.radius(i);
+      sight = Sight(projection, radius * projection.scale());
+    }
     shifts(0, place.x(), radius, [&](double dx) {
       shifts(1, place.y(), radius, [&](double dy) {
         const Vec2 centre = projection.pixels(place + Vec2(dx, dy));
-        if (in_sight(centre, reach, projection)) visit(centre, i);
+        if (sight.contains(centre)) visit(centre, i);
       });
     });
   }
@@ -122,6 +134,7 @@ void DiskLayer::draw_coverage(const Snapshot& snapshot, const Projection& projec
     cover_paths(snapshot, projection, colours, tiling, largest);
   } else {
     visit_disks(snapshot, projection, tiling, [&](const Vec2& centre, std::size_t i) {
+      if (snapshot.grains.empty()) return coverage_.add(centre, colours.of(snapshot, i));
       const double radius = snapshot.radius(i) * projection.scale();
       if (radius >= Coverage::kLargestRadius) return;
       coverage_.add(centre, colours.of(snapshot, i), 1.0f, radius / largest);
@@ -137,18 +150,21 @@ void DiskLayer::cover_paths(const Snapshot& snapshot, const Projection& projecti
                             const DiskColours& colours, const Tiling& tiling, double largest) {
   constexpr double kStep = 0.25;  // pixels
   constexpr double kMaxSteps = 1e6;
+  const bool alike = snapshot.grains.empty();
   for (const Chord& chord :
        chords(snapshot, snapshot.flights, projection, snapshot.exposure, tiling)) {
     const double radius = snapshot.radius(chord.disk) * projection.scale();
     if (radius >= Coverage::kLargestRadius) continue;
+    const Sight sight(projection, radius);
+    const double relative = alike ? 1.0 : radius / largest;
     const Colour colour = colours.of(snapshot, chord.disk);
     const Vec2 way = chord.end - chord.start;
     const int steps = static_cast<int>(std::min(way.norm() / kStep, kMaxSteps)) + 1;
     const double share = (chord.to - chord.from) / snapshot.exposure / steps;
     for (int k = 0; k < steps; ++k) {
       const Vec2 centre = chord.start + (k + 0.5) / steps * way;
-      if (!in_sight(centre, radius + kSoftEdge, projection)) continue;
-      coverage_.add(centre, colour, static_cast<float>(share), radius / largest);
+      if (!sight.contains(centre)) continue;
+      coverage_.add(centre, colour, static_cast<float>(share), relative);
     }
   }
 }
