@@ -346,6 +346,10 @@ void add_sweep_command(CLI::App& program, int& exit_code) {
             "Measure and draw the ratio of spin and translational temperature of rough particles, "
             "with the theory.",
             rough_study);
+  add_study(*sweep, exit_code, "mixture",
+            "Measure and draw the ratio of the temperatures of two species against their masses, "
+            "with the theory.",
+            mixture_study);
 }
 
 }  // namespace clatter

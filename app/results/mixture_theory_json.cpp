@@ -152,7 +152,9 @@ Json mixture_theory_json(const Scene& scene) {
   });
   if (walled || scene.gravity || gas.count() < 2.0 || !constant_beta) return json;
   const bool dissipates = !every_pair(scene, [](const PairLaw& law) { return !law.dissipates(); });
-  if (scene.bulk_drive) {
+  const bool kicked =
+      scene.bulk_drive && (scene.bulk_drive->kick_speed > 0.0 || scene.bulk_drive->kick_spin > 0.0);
+  if (kicked) {
     add_driven(json, scene, gas, dissipates);
   } else if (dissipates) {
     add_cooling(json, scene, gas);

@@ -154,4 +154,43 @@ replicas = 2
   return study;
 }
 
+// Without kicks the gas cools, and its temperatures have a constant ratio after some collisions of
+// each particle. It is measured before clusters form.
+Study mixture_study(int dimension) {
+  Study study;
+  study.sweep = fmt::format(
+      R"(# The ratio of the temperatures of two species of equal size, against the ratio of their masses: in a
+# gas that cools freely, and in a gas with kicks of equal velocity for all.
+scene = "two_temperatures"
+replicas = 8
+zip = [["bulk_drive.kick_speed", "measure.burn_in", "measure.duration"]]
+
+[set]
+"box.size" = {}
+"particles.restitution" = 0.8
+"species.light.count" = 100
+"species.heavy.count" = 100
+"species.heavy.diameter" = 1.0
+
+[axes]
+"species.heavy.mass" = {{ from = 1.0, to = 20.0, count = 7, scale = "log" }}
+"bulk_drive.kick_speed" = [0.0, 0.12]
+"measure.burn_in" = [20.0, 100.0]
+"measure.duration" = [40.0, 500.0]
+)",
+      dimension == 2 ? "[30.0, 24.0]" : "[10.0, 10.0, 10.0]");
+  study.charts = {{"ratio",
+                   {.x = "species.heavy.mass",
+                    .y = "species.heavy.temperature/species.light.temperature",
+                    .by = "bulk_drive.kick_speed",
+                    .log_x = true,
+                    .theory = true,
+                    .x_label = "mass of the heavy species over that of the light one",
+                    .y_label = "T_2/T_1",
+                    .title = "Two species of a granular gas have two temperatures",
+                    .caption = "Without kicks the gas cools. Kicks of equal velocity give heavy "
+                               "particles more energy, and flows of the gas add to it."}}};
+  return study;
+}
+
 }  // namespace clatter

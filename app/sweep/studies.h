@@ -27,4 +27,8 @@ Study temperature_study(int dimension);
 /// the tangential restitution (theory 6.10).
 Study rough_study(int dimension);
 
+/// Ratio of the temperatures of two species of equal size against the ratio of their masses, in a
+/// gas that cools and in a gas that is kicked (theory 12).
+Study mixture_study(int dimension);
+
 }  // namespace clatter

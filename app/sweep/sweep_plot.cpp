@@ -126,6 +126,43 @@ std::optional<Product> predicted(const Theory& theory, const Product& quantity) 
   return result;
 }
 
+// A curve of a theory.
+struct PredictedCurve {
+  std::string name;
+  LineStyle style;
+  Product quantity;
+};
+
+// Temperatures of species are known for a gas that is kicked, and their ratios for one that cools.
+void add_species_predictions(const Product& quantity, std::vector<PredictedCurve>& predictions) {
+  constexpr std::string_view kSpecies = "species.", kTemperature = ".temperature";
+  for (const std::string_view suffix : {".temperature", ".temperature_ratio"}) {
+    Product result = quantity;
+    int above = 0, below = 0;
+    for (Factor& factor : result) {
+      std::string& column = factor.column;
+      if (!column.starts_with(kSpecies) || !column.ends_with(kTemperature)) continue;
+      column.resize(column.size() - kTemperature.size());
+      column = "theory." + column + std::string(suffix);
+      ++(factor.divides ? below : above);
+    }
+    const bool is_known = suffix == kTemperature ? above + below > 0 : above > 0 && above == below;
+    if (is_known) predictions.push_back({"kinetic theory", LineStyle::Solid, result});
+  }
+}
+
+// All theories of a quantity.
+std::vector<PredictedCurve> predictions_of(const Product& quantity) {
+  std::vector<PredictedCurve> predictions;
+  for (const Theory& theory : kTheories) {
+    if (const auto result = predicted(theory, quantity)) {
+      predictions.push_back({std::string(theory.name), theory.style, *result});
+    }
+  }
+  add_species_predictions(quantity, predictions);
+  return predictions;
+}
+
 // Symbols of columns, with their unit.
 struct Symbol {
   std::string_view column;
@@ -268,14 +305,12 @@ Chart chart_of(const SweepTable& table, const std::vector<std::string>& axes,
     rows[at->second].push_back(&row);
   }
   if (!plot.theory || chart.series.empty()) return chart;
-  for (const Theory& theory : kTheories) {
-    const auto prediction = predicted(theory, y);
-    if (!prediction) continue;
+  for (const PredictedCurve& theory : predictions_of(y)) {
     std::vector<ChartLine> lines;
     for (std::size_t k = 0; k < rows.size(); ++k) {
-      ChartLine line{std::string(theory.name), {}, theory.style, k};
+      ChartLine line{theory.name, {}, theory.style, k};
       for (const Json* row : rows[k]) {
-        line.points.emplace_back(value_of(x, *row).y, value_of(*prediction, *row).y);
+        line.points.emplace_back(value_of(x, *row).y, value_of(theory.quantity, *row).y);
       }
       lines.push_back(std::move(line));
     }

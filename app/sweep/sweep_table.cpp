@@ -82,16 +82,28 @@ void add_means(Json& row, const Replicas& replicas, const std::string& name,
   }
 }
 
-// The numbers of a group such as "events", each combined over the replicas.
+// The numbers below `place`, each combined over the replicas.
+template <class Combine>
+void add_numbers(Json& row, const Replicas& replicas, const std::string& name,
+                 const Json::json_pointer& place, Combine combine) {
+  for (const auto& [key, value] : replicas.front().at(place).items()) {
+    const std::string item = name_of_item(value);
+    const std::string path = name + '.' + (item.empty() ? key : item);
+    const std::vector<double> numbers = numbers_at(replicas, place / key);
+    if (!numbers.empty()) {
+      row[path] = combine(numbers);
+    } else if (value.is_structured()) {
+      add_numbers(row, replicas, path, place / key, combine);
+    }
+  }
+}
+
+// The same of a group such as "events".
 template <class Combine>
 void add_group(Json& row, const Replicas& replicas, const std::string& group, Combine combine) {
   const auto found = replicas.front().find(group);
   if (found == replicas.front().end()) return;
-  for (const auto& [key, value] : found->items()) {
-    const Json::json_pointer place = Json::json_pointer("/" + group) / key;
-    const std::vector<double> numbers = numbers_at(replicas, place);
-    if (!numbers.empty()) row[group + '.' + key] = combine(numbers);
-  }
+  add_numbers(row, replicas, group, Json::json_pointer("/" + group), combine);
 }
 
 Json sum_of(const std::vector<double>& numbers) {

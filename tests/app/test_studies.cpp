@@ -43,7 +43,8 @@ TEST_CASE("Studies: all points are valid scenes") {
   for (const int dimension : {2, 3}) {
     CAPTURE(dimension);
     for (const auto& [study, points] :
-         {std::pair(temperature_study(dimension), 35), std::pair(rough_study(dimension), 39)}) {
+         {std::pair(temperature_study(dimension), 35), std::pair(rough_study(dimension), 39),
+          std::pair(mixture_study(dimension), 14)}) {
       CAPTURE(study.sweep);
       Sweep sweep;
       CHECK(refusal_of([&] {

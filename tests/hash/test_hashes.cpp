@@ -36,11 +36,15 @@ constexpr GalleryHash kGallery[] = {
     {"barometer.toml", 0x6a2395a17e31fee7},
     {"collapse.toml", 0x4bf763996dd1b7ee},
     {"conduction.toml", 0x6ec3c4ab107498dd},
+    {"brazil_nut.toml", 0x9dcb1829c8451fc1},
+    {"brownian.toml", 0xc198b27428460b20},
     {"cooling.toml", 0x002cb0c2ab369464},
     {"cradle.toml", 0x0d76ddcebd38d99e},
     {"dense.toml", 0xa8462d63d5bf47fa},
     {"equilibrium.toml", 0x2f6ceb84347bc73e},
     {"heating_walls.toml", 0x940f2efa3bae110f},
+    {"mixed_atmosphere.toml", 0x6efeeb73a1039e1c},
+    {"polydisperse.toml", 0x30519c5fc45b9eaa},
     {"rough_cooling.toml", 0x668b837c3859e598},
     {"rough_driven.toml", 0xdc18b4f8fcead24e},
     {"shaker.toml", 0x96b5507643a1d9a1},
@@ -49,6 +53,7 @@ constexpr GalleryHash kGallery[] = {
     {"spheres_rain.toml", 0x5c4e329e272ae706},
     {"spheres_rough.toml", 0xb95c305d7392409d},
     {"spheres_vibrated.toml", 0xd726d2453464c7e9},
+    {"two_temperatures.toml", 0xbb154a53cb90151d},
     {"vibrated.toml", 0x893fff2f2673d6a9},
 };
 
