@@ -27,12 +27,12 @@ struct CellAverages {
   Vector energy_transfer{};  ///< energy transfer of collisions, sum of branch vector times energy
   S dissipation{};           ///< <= 0, energy gain in collisions between particles, per time
 
-  /// The same of the particles of one species.
+  /// The same of the particles of one species; undefined unless they are asked for.
   struct Species {
-    S density{};
-    S mass_density{};
-    Vector momentum{};
-    Vector squares{};  ///< sum m v_k^2
+    S density;
+    S mass_density;
+    Vector momentum;
+    Vector squares;  ///< sum m v_k^2
   } species;
 
   /// E = sum (m v^2 + I omega^2)/2.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/physics/theory.h"
 #include "engine/scene/field.h"
 #include "engine/scene/scene_file.h"
 
@@ -12,15 +11,17 @@ namespace clatter {
 namespace {
 
 VecX changed_box(const Scene& scene, int dimension) {
-  constexpr double kShortest = 2.0;  // of all sides
+  const double shortest = 2.0 * scene.largest_diameter();  // of all sides
   VecX box(dimension);
   for (int axis = 0; axis < dimension; ++axis) box[axis] = scene.box[std::min(axis, 1)];
   const double filled = std::min(scene.packing_fraction(), kMostFilled);
   if (filled > 0.0) {
-    const double now = packing_fraction(dimension, scene.particles.count / box.prod());
+    Scene in_box = scene;
+    in_box.box = box;
+    const double now = in_box.packing_fraction();
     box *= std::pow(now / filled, 1.0 / dimension);
   }
-  box *= std::max(1.0, kShortest / box.minCoeff());
+  box *= std::max(1.0, shortest / box.minCoeff());
   return (10.0 * box.array()).round() / 10.0;
 }
 

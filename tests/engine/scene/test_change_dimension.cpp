@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "engine/scene/change_dimension.h"
 #include "engine/scene/scene_file.h"
@@ -108,6 +109,19 @@ TEST_CASE("Change of dimension: every scene of the gallery has one of spheres") 
     CHECK(spheres.packing_fraction() < kMostFilled + 0.02);
     CHECK(spheres.particles.start.layout != Layout::File);
   }
+}
+
+// The sides are rounded to tenths of the unit: 1 % of the fraction.
+TEST_CASE("Change of dimension: a mixture fills the same share of the box") {
+  const Scene disks = parse_scene(R"(box.size = [30, 20]
+      species = [{ name = "a", count = 60 }, { name = "b", count = 20, diameter = 3.0 }])",
+                                  "mixture.toml");
+  const Scene spheres = change_dimension(disks, 3).scene;
+  const double volumes = std::numbers::pi / 6.0 * (60.0 + 20.0 * 27.0);
+  CHECK(disks.packing_fraction() == doctest::Approx(0.25 * std::numbers::pi * 240.0 / 600.0));
+  CHECK(volumes / spheres.box.prod() == doctest::Approx(disks.packing_fraction()).epsilon(0.02));
+  CHECK(spheres.species[1].mass_in(3) == 27.0);
+  CHECK(change_dimension(spheres, 2).scene.species == disks.species);
 }
 
 }  // namespace clatter
