@@ -19,8 +19,9 @@ static std::string shown(const std::string& value) {
                   advice);
 }
 
-// Properties that a resumed run must keep: the box, the disks and the walled sides.
+// Properties that a resumed run must keep: the box, the particles and the walled sides.
 static bool is_fixed(const KeyDifference& difference) {
+  if (difference.key.starts_with("species.")) return !difference.key.ends_with(".colour");
   const bool wall_of_one = difference.before.empty() || difference.now.empty();
   return difference.key == "box.size" || difference.key == "particles.count" ||
          (wall_of_one && difference.key.starts_with("walls.") && difference.key.ends_with(".kind"));
@@ -31,7 +32,28 @@ static bool is_fixed(const KeyDifference& difference) {
 static bool is_law(const KeyDifference& difference) {
   const std::string& key = difference.key;
   return !key.starts_with("measure.") && !key.starts_with("view.") &&
-         !key.starts_with("particles.start.") && key.find('.') != std::string::npos;
+         !key.starts_with("species.") && !key.starts_with("particles.start.") &&
+         key.find('.') != std::string::npos;
+}
+
+// Whether --set has a law. The names of a pair may have either order.
+static bool is_set(const CommonOptions& common, const std::string& key) {
+  if (common.sets(key)) return true;
+  constexpr std::string_view kPair = "pair.";
+  if (!key.starts_with(kPair)) return false;
+  const std::size_t second = key.find('.', kPair.size()) + 1, last = key.find('.', second);
+  const std::string first_name = key.substr(kPair.size(), second - 1 - kPair.size());
+  return common.sets(std::string(kPair) + key.substr(second, last - second) + '.' + first_name +
+                     key.substr(last));
+}
+
+// The numbers of particles in a start state of a file come from the checkpoint.
+static void take_counts(Scene& scene, const Scene& saved) {
+  if (scene.particles.count == 0) scene.particles.count = saved.particles.count;
+  for (Species& species : scene.species) {
+    const auto same = find_species(saved.species, species.name);
+    if (species.count == 0 && same) species.count = saved.species[*same].count;
+  }
 }
 
 double Resumed::time() const {
@@ -45,16 +67,13 @@ std::optional<Resumed> resume(const CommonOptions& common, const CheckpointOptio
   const std::string& file = options.resume;
   Resumed resumed{file, read_checkpoint(file), {}};
   if (scene.particles.start.layout == Layout::File) {
-    if (scene.particles.count == 0) {
-      scene.particles.count =
-          parse_scene(resumed.checkpoint.scene, file, {}, StartFile::Skip).particles.count;
-    }
+    take_counts(scene, parse_scene(resumed.checkpoint.scene, file, {}, StartFile::Skip));
     scene.particles.start.temperature = resumed.checkpoint.start_temperature;
   }
   resumed.differences = differences(resumed.checkpoint.scene, scene_to_toml(scene), file);
   for (const KeyDifference& key : resumed.differences) {
     if (is_fixed(key)) refuse(resumed, key, "give the scene of the checkpoint");
-    if (is_law(key) && !common.sets(key.key)) {
+    if (is_law(key) && !is_set(common, key.key)) {
       refuse(resumed, key,
              "give the scene of the checkpoint, or change the law with --set " + key.key + "=" +
                  shown(key.now));

@@ -16,7 +16,7 @@ static void sliders_of(const Session& session, Controls& controls, std::size_t n
   const Species& usual = number < opened.size() ? opened[number] : species;
   const std::string path = "species." + species.name + '.';
   const std::string count = path + "count", diameter = path + "diameter", mass = path + "mass";
-  if (scene.particles.start.layout == Layout::File) return;
+  if (session.opened().particles.start.layout == Layout::File) return;
   controls.whole({.key = count.c_str(),
                   .name = scene.dimension() == 2 ? "Disks" : "Spheres",
                   .symbol = "N",

@@ -215,7 +215,7 @@ void ScheduledRun<D>::enter(const Puff& puff) {
   for (const auto& [position, velocity, grain] : particles) {
     positions.push_back(position);
     velocities.push_back({next++, velocity});
-    if (simulation_->is_mixture()) grains.push_back(grain);
+    if (!laws().species.empty()) grains.push_back(grain);
   }
   simulation_->add_particles(positions, grains);
   simulation_->use_threads(threads_);

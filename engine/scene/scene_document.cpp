@@ -202,6 +202,10 @@ static void replace_in_lists(toml::table& root, toml::table& changes, const Plac
           list.push_back(toml::table{{"species", toml::array{first, second}}});
           item = list.back().as_table();
         }
+        if (values->contains("species")) {
+          throw UserError(place, "the species of a pair cannot change",
+                          "write pair.NAME.NAME.KEY with the names of the other pair");
+        }
         replace(*item, *values);
       }
     }
@@ -268,6 +272,7 @@ static std::string advice_on(std::string_view path, std::size_t prefix,
     return "did you mean '" + std::string(near) + "'?";
   }
   for (const std::string& one : known) {
+    if (one.starts_with("pair.") || one.starts_with("species.")) continue;
     if (one.ends_with('.' + std::string(key))) return "did you mean '" + one + "'?";
   }
   return "the keys here are " + all;

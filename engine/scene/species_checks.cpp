@@ -99,6 +99,20 @@ static void check_species_pairs(const SceneInput& input, const toml::table& root
   }
 }
 
+/// Throws if a wall has a table of a species that the scene lacks.
+static void check_species_walls(const SceneInput& input, const toml::table& root,
+                                const std::string& file) {
+  for (const char* const side : kSideNames) {
+    const toml::table* tables = root["walls"][side]["species"].as_table();
+    if (!tables) continue;
+    for (const auto& [name, table] : *tables) {
+      if (find_species(input.scene.species, name.str())) continue;
+      const std::string path = std::string("walls.") + side + ".species." + std::string(name.str());
+      refuse_species(place_of(root, path, file), name.str(), input.species_names);
+    }
+  }
+}
+
 void check_species(const SceneInput& input, const toml::table& root, const std::string& file) {
   if (input.species.size() > kMaxSpecies) {
     throw UserError(place_in(root, "species", kMaxSpecies, "name", file),
@@ -110,6 +124,7 @@ void check_species(const SceneInput& input, const toml::table& root, const std::
   check_spreads(input, root, file);
   check_masses(input, root, file);
   check_species_pairs(input, root, file);
+  check_species_walls(input, root, file);
   if (input.species.empty()) return;
   const std::string packing(input.packing_key());
   for (const std::string& key : {std::string("particles.count"), packing}) {
@@ -197,15 +212,16 @@ int resolve_mixture(SceneInput& input, const toml::table& root, const std::strin
   const double filled = scene.packing_fraction(), most = closest_packing(scene.dimension());
   if (filled > most) {
     const double rest = most - (filled - largest);
-    const double fits = std::floor(rest / fraction_of_one(scene, scene.species[chosen]));
-    throw UserError(place_in(root, "species", chosen,
-                             input.species[chosen].count ? "count" : input.packing_name(), file),
-                    "the species would fill " + number_text(std::round(1e4 * filled) / 1e4) +
-                        " of the box, more than the closest packing of equal particles",
-                    fits > 0.0
-                        ? "give at most " + number_text(fits) + " particles of the species " +
-                              in_quotes(scene.species[chosen].name)
-                        : "give fewer particles of each species, or a larger box");
+    const bool counted = input.species[chosen].count.has_value();
+    const double fits = counted ? std::floor(rest / fraction_of_one(scene, scene.species[chosen]))
+                                : std::floor(1e4 * rest) / 1e4;
+    throw UserError(
+        place_in(root, "species", chosen, counted ? "count" : input.packing_name(), file),
+        "the species would fill " + number_text(std::round(1e4 * filled) / 1e4) +
+            " of the box, more than the closest packing of equal particles",
+        fits > 0.0 ? "give the species " + in_quotes(scene.species[chosen].name) + " at most " +
+                         number_text(fits)
+                   : "give fewer particles of each species, or a larger box");
   }
   const int count = count_of(scene.species);
   if (scene.particles.start.layout != Layout::Lattice) return count;

@@ -306,8 +306,8 @@ template <int D>
 void Reader<D>::refuse_pair(std::size_t a, std::size_t b, double overlap) const {
   const auto [first, second] = std::minmax(particle_lines_[a], particle_lines_[b]);
   throw UserError({file_, second, 1},
-                  fmt::format("the particles of lines {} and {} overlap by {:.3g} diameters", first,
-                              second, overlap),
+                  fmt::format("the particles of lines {} and {} overlap by {:.3g}{}", first, second,
+                              overlap, scene_.species.empty() ? " diameters" : ""),
                   "move them apart, or remove one");
 }
 

@@ -53,6 +53,28 @@ TEST_CASE("Resume: a measurement of an empty box of rough disks ends in the same
   CHECK(result_of(shell, "again.json") == result_of(shell, "whole.json"));
 }
 
+TEST_CASE("Resume: a mixture keeps its species, and its pairs unless they are set") {
+  const Shell shell;
+  const std::string species =
+      "box.size = [9, 9]\n[[species]]\nname = \"a\"\ncount = 20\n[[species]]\nname = \"b\"\n"
+      "count = 5\ndiameter = 1.5\n";
+  shell.write("s.toml", species);
+  shell.write("heavy.toml", species + "mass = 9\n");
+  shell.write("pair.toml", species + "[[pair]]\nspecies = [\"a\", \"b\"]\nrestitution = 0.9\n");
+  const std::string line = " --set measure.burn_in=1 --quiet ";
+  REQUIRE(shell.run("clatter measure s.toml --until 4 --out a.json --checkpoint c" + line).code ==
+          0);
+  const std::string resume = " --until 6 --out b.json --resume c" + line;
+  CHECK(shell.run("clatter measure s.toml" + resume).code == 0);
+  const Outcome heavy = shell.run("clatter measure heavy.toml" + resume);
+  CHECK(heavy.code == kWrongUse);
+  CHECK(says(heavy.err, "species.b.mass is absent in the checkpoint and 9"));
+  const Outcome pair = shell.run("clatter measure pair.toml" + resume);
+  CHECK(pair.code == kWrongUse);
+  CHECK(says(pair.err, "--set pair.a.b.restitution=0.9"));
+  CHECK(shell.run("clatter measure s.toml --set pair.b.a.restitution=0.9" + resume).code == 0);
+}
+
 TEST_CASE("Resume: a measurement of a given accuracy ends in the same result") {
   const Shell shell;
   const std::string line = kLongRun + "--accuracy 0.5% ";

@@ -95,7 +95,7 @@ TEST_CASE("Field value: every field follows from its definition, particle by par
 }
 
 TEST_CASE("Field value: cells without particles have only densities and collisional parts") {
-  const CellAverages<2, double> nothing;
+  const CellAverages<2, double> nothing{};
   for (const Field field : average_fields()) {
     CAPTURE(name_of(field));
     const double value = field_value(field, nothing);

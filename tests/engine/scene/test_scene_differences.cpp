@@ -23,3 +23,16 @@ TEST_CASE("Scene differences: the last bit of a number counts, the order of keys
   CHECK(differences("a = 0.1", "a = 0.10000000000000002", "f").size() == 1);
   CHECK_THROWS_AS(differences("a = ", "a = 1", "f"), UserError);
 }
+
+TEST_CASE("Scene differences: species and pairs are named as in overrides") {
+  const std::string species = "[[species]]\nname = 'a'\nmass = 2\n[[species]]\nname = 'b'\n";
+  const auto found = differences(species + "[[pair]]\nspecies = ['b', 'a']\nrestitution = 0.5\n",
+                                 "[[species]]\nname = 'a'\nmass = 3\n[[species]]\nname = 'c'\n"
+                                 "[[pair]]\nspecies = ['b', 'a']\nrestitution = 0.6\n",
+                                 "f");
+  std::vector<std::string> keys;
+  for (const KeyDifference& key : found) keys.push_back(key.key);
+  const std::vector<std::string> wanted = {"pair.a.b.restitution", "species.a.mass",
+                                           "species.b.name", "species.c.name"};
+  CHECK(keys == wanted);
+}

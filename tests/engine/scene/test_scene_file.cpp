@@ -47,7 +47,8 @@ Scene unusual_scene() {
                            .frequency = 2.0,
                            .phase = 0.5};
   scene.gravity = Vec2(0.1, -1.0 / 3.0);
-  scene.bulk_drive = {.interval = 0.05, .kick_speed = 0.12, .kick_spin = 0.3};
+  scene.bulk_drive = {
+      .interval = 0.05, .kick_speed = 0.12, .kick_spin = 0.3, .law = KickLaw::Momentum};
   scene.contact_time = 1e-6;
   scene.measure.burn_in = 0.0;
   scene.measure.duration = 1e308;
@@ -156,6 +157,7 @@ acceleration = [0.1, -0.3333333333333333]
 interval = 0.05
 kick_speed = 0.12
 kick_spin = 0.3
+law = "momentum"
 [collapse]
 contact_time = 1e-6
 [measure]
@@ -380,7 +382,7 @@ TEST_CASE("Scene file: a file is found by path or name, or the reason why not is
 }
 
 TEST_CASE("Scene file: the gallery's scenes are sound and presented") {
-  CHECK(embedded_scenes().size() == 17);
+  CHECK(embedded_scenes().size() == 22);
   for (const EmbeddedFile& file : embedded_scenes()) {
     CAPTURE(file.name);
     const Scene scene = load_scene(std::string(file.name));

@@ -238,12 +238,17 @@ TEST_CASE("Species: mistakes are reported with their place and a fix") {
            {with(pair + "[\"a\", \"b\"]\n" + pair + "[\"b\", \"a\"]\n"), "12:1", "one [[pair]]"},
            {with("[walls.left]\nkind = \"static\"\n[walls.left.species.c]\nrestitution = 0\n"),
             "11:1", "unknown key 'c'"},
+           {"particles.count = 1\n[walls.left]\nkind = \"static\"\n[walls.right]\nkind = "
+            "\"static\"\n[walls.left.species.a]\nfriction = 1\n",
+            "6:1", "there is no species \"a\"; add [[species]]"},
+           {with("[[change]]\ntime = 1\nset = { \"pair.a.b.species\" = [\"a\", \"a\"] }\n"), "9:1",
+            "the species of a pair cannot change"},
            {with("[walls.left]\nkind = \"static\"\n[walls.left.species.a]\ntemperature = 1\n"),
             "12:1", "this kind of wall"},
            {"box.size = [10, 2]\n[[species]]\nname = \"a\"\ncount = 1\ndiameter = 3\n", "1:5",
             "longer than the largest diameter, 3"},
            {"box.size = [10, 10]\n[[species]]\nname = \"a\"\ncount = 100\ndiameter = 1.1\n", "4:1",
-            "at most 95 particles of the species \"a\""},
+            "the species \"a\" at most 95"},
            {with("[particles.start]\nlayout = \"lattice\"\n[[species]]\nname = \"c\"\ncount = 20\n"
                  "diameter = 2.0\n"),
             "10:1", "a lattice of the largest particles has"},
@@ -340,6 +345,25 @@ until = 4.0
   CHECK(run.simulation().model().pair(2, 2).restitution == doctest::Approx(0.5).epsilon(0.02));
   run.run_until(4.1);
   CHECK(run.simulation().model().pair(2, 2).restitution == 0.1);
+}
+
+TEST_CASE("Species: a puff into an empty box makes particles of its species") {
+  const std::string puffs = R"(
+[[change]]
+time = 1.0
+puff = { count = 4, centre = [5, 5], radius = 4, species = "a" }
+[[change]]
+time = 2.0
+puff = { count = 5, centre = [5, 5], radius = 4, species = "b" }
+)";
+  ScheduledRun<2> run(
+      parse_scene(kPlain + puffs, "s.toml", {{"species.a.count", "0"}, {"species.b.count", "0"}}),
+      kSpeciesSeed);
+  run.run_until(3.0);
+  const State<2> state = run.simulation().state();
+  REQUIRE(state.grains.size() == 9);
+  CHECK(state.grains[3].radius == 0.5);
+  CHECK(state.grains[4] == Grain{.radius = 0.25, .mass = 0.25, .inertia = 0.5, .species = 1});
 }
 
 TEST_CASE("Species: particles of a puff are of its species") {

@@ -180,7 +180,7 @@ TEST_CASE("State file: mistakes are reported with their place and a fix") {
       {kSphereHeader, "1:5:", "unknown column \"z\""},
       {"", "", "x,y,z,vx,vy,vz", smooth_scene(3)},
       {kHeader, "1:1:", "\"z\" is missing", smooth_scene(3)},
-      {"x,y,z,vx,vy,vz,mass\n", "1:16:", "omega_x, omega_y, omega_z", smooth_scene(3)},
+      {"x,y,z,vx,vy,vz,charge\n", "1:16:", "omega_x, omega_y, omega_z", smooth_scene(3)},
       {"x,y,z,vx,vy,vz,omega\n", "1:16:", "did you mean \"omega_", rough_scene(3)},
       {"x,y,z,vx,vy,vz,omega_z\n", "1:16:", "nothing spins", smooth_scene(3)},
       // numbers
