@@ -68,7 +68,7 @@ TEST_CASE("Resume: a mixture keeps its species, and its pairs unless they are se
   CHECK(shell.run("clatter measure s.toml" + resume).code == 0);
   const Outcome heavy = shell.run("clatter measure heavy.toml" + resume);
   CHECK(heavy.code == kWrongUse);
-  CHECK(says(heavy.err, "species.b.mass is absent in the checkpoint and 9"));
+  CHECK(says(heavy.err, "species.b.density is 1.0 in the checkpoint and absent in the scene"));
   const Outcome pair = shell.run("clatter measure pair.toml" + resume);
   CHECK(pair.code == kWrongUse);
   CHECK(says(pair.err, "--set pair.a.b.restitution=0.9"));
