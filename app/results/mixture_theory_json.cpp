@@ -37,15 +37,21 @@ MixtureGas mixture_gas(const Scene& scene) {
 
 namespace {
 
-// Calls visit(law) for each pair of species.
+bool can_collide(const Scene& scene, std::size_t a, std::size_t b) {
+  if (scene.species.empty()) return scene.particles.count > 1;
+  return std::min(scene.species[a].count, scene.species[b].count) >= (a == b ? 2 : 1);
+}
+
+// Whether test(law) holds for some pair of species that can collide.
 template <class Test>
-bool every_pair(const Scene& scene, const Test& test) {
-  for (std::size_t a = 0; a < scene.species.size(); ++a) {
+bool any_pair(const Scene& scene, const Test& test) {
+  const std::size_t species = std::max<std::size_t>(scene.species.size(), 1);
+  for (std::size_t a = 0; a < species; ++a) {
     for (std::size_t b = 0; b <= a; ++b) {
-      if (!test(scene.pair_law(a, b))) return false;
+      if (can_collide(scene, a, b) && test(scene.pair_law(a, b))) return true;
     }
   }
-  return true;
+  return false;
 }
 
 // Adds a number of each species that has particles.
@@ -64,8 +70,7 @@ void add_to_pairs(Json& json, const Scene& scene, const char* key, const Value& 
   std::size_t place = 0;
   for (std::size_t b = 0; b < scene.species.size(); ++b) {
     for (std::size_t a = 0; a <= b; ++a) {
-      const int needed = a == b ? 2 : 1;
-      if (std::min(scene.species[a].count, scene.species[b].count) < needed) continue;
+      if (!can_collide(scene, a, b)) continue;
       Json& pair = json["pairs"][place++];
       if (!pair.contains("species")) {
         pair["species"] = Json::array({scene.species[a].name, scene.species[b].name});
@@ -109,7 +114,7 @@ void add_cooling(Json& json, const Scene& scene, const MixtureGas& gas) {
 }
 
 // H becomes (2/D) H of T_s, and the kicks of spins become I s_w^2 / dt of R_s.
-void add_driven(Json& json, const Scene& scene, const MixtureGas& gas, bool dissipates) {
+void add_driven(Json& json, const Scene& scene, const MixtureGas& gas) {
   const BulkDrive& drive = *scene.bulk_drive;
   std::vector<double> speeds;
   for (const MixtureComponent& one : gas.components)
@@ -117,7 +122,7 @@ void add_driven(Json& json, const Scene& scene, const MixtureGas& gas, bool diss
   const std::vector<double> powers = gas.kick_powers(speeds, drive.interval);
   add_names(json, scene);
   add_to_species(json, scene, gas, "bulk_drive_power", powers);
-  if (!dissipates) return;
+  if (!dissipates(scene)) return;
   MixtureTemperatures heating = gas.equal(0.0);
   for (std::size_t s = 0; s < gas.components.size(); ++s) {
     const MixtureComponent& one = gas.components[s];
@@ -138,6 +143,10 @@ void add_driven(Json& json, const Scene& scene, const MixtureGas& gas, bool diss
 
 }  // namespace
 
+bool dissipates(const Scene& scene) {
+  return any_pair(scene, [](const PairLaw& law) { return law.dissipates(); });
+}
+
 Json mixture_theory_json(const Scene& scene) {
   Json json = Json::object();
   const MixtureGas gas = mixture_gas(scene);
@@ -147,16 +156,15 @@ Json mixture_theory_json(const Scene& scene) {
   });
   const bool walled = std::ranges::any_of(scene.walls, [](const auto& wall) { return !!wall; });
   // Friction makes beta depend on the collision.
-  const bool constant_beta = every_pair(scene, [](const PairLaw& law) {
-    return !law.roughness.any() || std::isinf(law.roughness.friction_in_force());
+  const bool rubs = any_pair(scene, [](const PairLaw& law) {
+    return law.roughness.any() && !std::isinf(law.roughness.friction_in_force());
   });
-  if (walled || scene.gravity || gas.count() < 2.0 || !constant_beta) return json;
-  const bool dissipates = !every_pair(scene, [](const PairLaw& law) { return !law.dissipates(); });
+  if (walled || scene.gravity || gas.count() < 2.0 || rubs) return json;
   const bool kicked =
       scene.bulk_drive && (scene.bulk_drive->kick_speed > 0.0 || scene.bulk_drive->kick_spin > 0.0);
   if (kicked) {
-    add_driven(json, scene, gas, dissipates);
-  } else if (dissipates) {
+    add_driven(json, scene, gas);
+  } else if (dissipates(scene)) {
     add_cooling(json, scene, gas);
   } else if (!scene.spins()) {
     add_elastic(json, scene, gas);

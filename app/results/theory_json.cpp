@@ -85,17 +85,6 @@ static bool is_homogeneous_gas(const Scene& scene) {
   return !walled && scene.particles.count > 1 && !scene.gravity;
 }
 
-// Whether collisions of particles lose energy.
-static bool dissipates(const Scene& scene) {
-  const std::size_t species = std::max<std::size_t>(scene.species.size(), 1);
-  for (std::size_t a = 0; a < species; ++a) {
-    for (std::size_t b = 0; b <= a; ++b) {
-      if (scene.pair_law(a, b).dissipates()) return true;
-    }
-  }
-  return false;
-}
-
 bool cools_freely(const Scene& scene) {
   return is_homogeneous_gas(scene) && !scene.bulk_drive && dissipates(scene);
 }

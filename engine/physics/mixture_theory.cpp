@@ -149,9 +149,15 @@ const MixtureContact& MixtureGas::contact(const MixtureComponent& first,
   return contacts[first.species * species + second.species];
 }
 
+double MixtureGas::partners(const MixtureComponent& first, const MixtureComponent& second) const {
+  if (first.species != second.species) return second.count;
+  return second.count * std::max(0.0, 1.0 - 1.0 / count_of(first.species));
+}
+
 bool MixtureGas::spins(std::size_t component) const {
+  const MixtureComponent& one = components[component];
   return std::ranges::any_of(components, [&](const MixtureComponent& other) {
-    return contact(components[component], other).tangential_restitution > -1.0;
+    return contact(one, other).tangential_restitution > -1.0 && partners(one, other) > 0.0;
   });
 }
 
@@ -197,7 +203,7 @@ double MixtureGas::collision_rate(std::size_t component, std::size_t other,
   const std::vector<double>& T = temperatures.translational;
   const double distance = 0.5 * (a.diameter + b.diameter);
   return solid_angle(dimension) * power_of(distance, dimension) / distance *
-         contact_correlation(a.diameter, b.diameter) * b.count / volume *
+         contact_correlation(a.diameter, b.diameter) * partners(a, b) / volume *
          std::sqrt(relative_variance(a, T[component], b, T[other]) / (2.0 * pi));
 }
 
@@ -211,7 +217,7 @@ double MixtureGas::pair_rate(std::size_t first, std::size_t second,
       sum += components[s].count * collision_rate(s, t, temperatures);
     }
   }
-  return first == second ? 0.5 * (1.0 - 1.0 / count_of(first)) * sum : sum;
+  return first == second ? 0.5 * sum : sum;
 }
 
 MixtureTemperatures MixtureGas::changes(const MixtureTemperatures& temperatures) const {

@@ -69,11 +69,14 @@ struct MixtureGas {
   /// p V/(N T) of an inelastic gas at these temperatures (theory 12.13).
   double compressibility(const MixtureTemperatures& temperatures) const;
   /// nu, collisions of one particle of a component with another component, per time (theory 12.10).
+  /// A particle does not collide with itself: of its own species it has N_s - 1 partners.
   double collision_rate(std::size_t component, std::size_t other,
                         const MixtureTemperatures& temperatures) const;
   /// Collisions between two species per time, of all particles.
   double pair_rate(std::size_t first, std::size_t second,
                    const MixtureTemperatures& temperatures) const;
+  /// Whether collisions change the spins of a component.
+  bool spins(std::size_t component) const;
   /// Changes of all temperatures per time by collisions (theory 12.14).
   MixtureTemperatures changes(const MixtureTemperatures& temperatures) const;
 
@@ -91,9 +94,9 @@ struct MixtureGas {
   std::vector<double> elastic_temperatures(double temperature) const;
 
  private:
+  double partners(const MixtureComponent& first, const MixtureComponent& second) const;
   const MixtureContact& contact(const MixtureComponent& first,
                                 const MixtureComponent& second) const;
-  bool spins(std::size_t component) const;
 };
 
 }  // namespace clatter

@@ -202,9 +202,9 @@ TEST_CASE("Theory: an elastic mixture has Z, collision rates and temperatures") 
   CHECK_FALSE(theory.contains("chi"));
   CHECK_FALSE(theory.contains("haff_rate"));
   // Collisions per particle at one temperature.
-  const double all = item_in(theory, "pairs", {"small", "small"}, "collision_rate") * 100.0 / 99.0 +
+  const double all = item_in(theory, "pairs", {"small", "small"}, "collision_rate") +
                      item_in(theory, "pairs", kBothSpecies, "collision_rate") +
-                     item_in(theory, "pairs", {"large", "large"}, "collision_rate") * 50.0 / 49.0;
+                     item_in(theory, "pairs", {"large", "large"}, "collision_rate");
   CHECK(collision_rate(scene, T) == doctest::Approx(2.0 * all / 150.0).epsilon(1e-12));
 }
 
@@ -237,14 +237,32 @@ TEST_CASE("Theory: equal species have the values of one species") {
   Scene one = scene;
   one.species.clear();
   const json two = theory_json(scene), alone = theory_json(one);
-  for (const char* key : {"haff_rate", "compressibility"}) {
-    CAPTURE(key);
-    CHECK(two.at(key).get<double>() == doctest::Approx(alone.at(key).get<double>()).epsilon(1e-9));
-  }
+  const double partners = 149.0 / 150.0;  // a particle does not meet itself
+  CHECK(two.at("compressibility").get<double>() ==
+        doctest::Approx(alone.at("compressibility").get<double>()).epsilon(1e-9));
+  CHECK(two.at("haff_rate").get<double>() ==
+        doctest::Approx(partners * alone.at("haff_rate").get<double>()).epsilon(1e-9));
   scene.bulk_drive = one.bulk_drive = BulkDrive{.interval = 0.1, .kick_speed = 0.3};
   CHECK(theory_json(scene).at("temperature_driven").get<double>() ==
-        doctest::Approx(theory_json(one).at("temperature_driven").get<double>()).epsilon(1e-9));
-  CHECK(collision_rate(scene, 1.7) == doctest::Approx(collision_rate(one, 1.7)).epsilon(1e-12));
+        doctest::Approx(std::pow(partners, -2.0 / 3.0) *
+                        theory_json(one).at("temperature_driven").get<double>())
+            .epsilon(1e-9));
+  CHECK(collision_rate(scene, 1.7) ==
+        doctest::Approx(partners * collision_rate(one, 1.7)).epsilon(1e-12));
+}
+
+TEST_CASE("Theory: pairs that lack particles have no influence") {
+  Scene scene = mixture_of(1.0);
+  scene.species[1].count = 1;
+  scene.pairs = {{{"large", "large"}, 0.5}};
+  CHECK_FALSE(cools_freely(scene));
+  CHECK(theory_json(scene).contains("species"));
+  CHECK_FALSE(theory_json(scene).contains("haff_rate"));
+  scene.species[1].count = 2;
+  CHECK(cools_freely(scene));
+  scene.species[1].count = 0;
+  scene.pairs = {{{"small", "large"}, 0.5}};
+  CHECK_FALSE(cools_freely(scene));
 }
 
 TEST_CASE("Theory: mixtures have none of the theory of particles that are alike") {
