@@ -64,6 +64,17 @@ void add_to_species(Json& json, const Scene& scene, const MixtureGas& gas, const
   }
 }
 
+// Adds the spin temperatures of the species whose spins collisions change.
+void add_spins(Json& json, const MixtureGas& gas, const char* key,
+               const MixtureTemperatures& temperatures) {
+  for (std::size_t c = 0, place = 0; c < gas.components.size(); ++c) {
+    const std::size_t species = gas.components[c].species;
+    if (c > 0 && gas.components[c - 1].species == species) continue;
+    Json& one = json["species"][place++];
+    if (gas.spins(c)) one[key] = gas.mean_of(species, temperatures.rotational);
+  }
+}
+
 // Adds a number of each pair of species that can collide, by their numbers.
 template <class Value>
 void add_to_pairs(Json& json, const Scene& scene, const char* key, const Value& value) {
@@ -106,9 +117,7 @@ void add_cooling(Json& json, const Scene& scene, const MixtureGas& gas) {
   if (!cooling) return;
   add_names(json, scene);
   add_to_species(json, scene, gas, "temperature_ratio", cooling->ratios.translational);
-  if (scene.spins()) {
-    add_to_species(json, scene, gas, "spin_temperature_ratio", cooling->ratios.rotational);
-  }
+  add_spins(json, gas, "spin_temperature_ratio", cooling->ratios);
   json["compressibility"] = gas.compressibility(cooling->ratios);
   json["haff_rate"] = -0.5 * cooling->rate * std::sqrt(scene.particles.start.temperature);
 }
@@ -136,7 +145,7 @@ void add_driven(Json& json, const Scene& scene, const MixtureGas& gas) {
   if (!driven) return;
   json["temperature_driven"] = gas.mean(driven->translational);
   add_to_species(json, scene, gas, "temperature", driven->translational);
-  if (scene.spins()) add_to_species(json, scene, gas, "spin_temperature", driven->rotational);
+  add_spins(json, gas, "spin_temperature", *driven);
   json["compressibility"] = gas.compressibility(*driven);
   add_rates(json, scene, gas, *driven);
 }

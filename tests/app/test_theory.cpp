@@ -265,6 +265,23 @@ TEST_CASE("Theory: pairs that lack particles have no influence") {
   CHECK_FALSE(cools_freely(scene));
 }
 
+TEST_CASE("Theory: species that stay smooth have no spin temperature") {
+  Scene scene = mixture_of(0.9);
+  Roughness rough;
+  rough.friction = std::numeric_limits<double>::infinity();
+  rough.tangential_restitution = 0.3;
+  scene.pairs = {{{"large", "large"}, 0.9, rough}};
+  const auto spins_of = [&](const char* key) {
+    std::vector<bool> found;
+    const json theory = theory_json(scene);
+    for (const json& one : theory.at("species")) found.push_back(one.contains(key));
+    return found;
+  };
+  CHECK(spins_of("spin_temperature_ratio") == std::vector{false, true});
+  scene.bulk_drive = BulkDrive{.interval = 0.1, .kick_speed = 0.3};
+  CHECK(spins_of("spin_temperature") == std::vector{false, true});
+}
+
 TEST_CASE("Theory: mixtures have none of the theory of particles that are alike") {
   Scene scene = mixture_of(0.9);
   CHECK(haff_rate(scene) == std::nullopt);
