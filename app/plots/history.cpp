@@ -9,7 +9,10 @@ void VelocityHistogram::add(const Snapshot& snapshot) {
   constexpr double kForgets = 1.0 / 600.0;  // weights decay over 600 frames
   if (snapshot.count() == 0) return;
   for (int axis = 0; axis < snapshot.velocities.rows(); ++axis) {
-    const auto velocities = snapshot.velocities.row(axis);
+    Eigen::RowVectorXd velocities = snapshot.velocities.row(axis);
+    for (std::size_t i = 0; i < snapshot.grains.size(); ++i) {
+      velocities[static_cast<Eigen::Index>(i)] *= std::sqrt(snapshot.grains[i].mass);
+    }
     const double deviation =
         std::sqrt(velocities.squaredNorm() / static_cast<double>(snapshot.count()));
     if (!(deviation > 0.0)) continue;

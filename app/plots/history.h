@@ -41,7 +41,8 @@ class VelocityHistogram {
   /// Adds all particles of a frame.
   void add(const Snapshot& snapshot);
   /// Probability density of the velocity along an axis over its standard deviation, at the middle
-  /// of each bin. Empty bins have density 0.
+  /// of each bin, in a mixture of the velocity times the root of the mass. Empty bins have density
+  /// 0.
   std::vector<Vec2> density(int axis) const;
 
   /// Visits all members, for checkpoints.

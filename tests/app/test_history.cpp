@@ -150,4 +150,17 @@ TEST_CASE("Plots: another run begins with its own sums") {
   CHECK(frames.history.samples()[0].walls_in == 1.5);
 }
 
+// Light particles have the velocities 2 and -2, one of the mass 4 has 1: all have the same energy.
+TEST_CASE("Plots: velocities of a mixture are times the root of the mass") {
+  Snapshot snapshot;
+  snapshot.positions = snapshot.velocities = Vectors::Zero(2, 3);
+  snapshot.velocities.row(0) << 2.0, -2.0, 1.0;
+  snapshot.grains = {{}, {}, {.mass = 4.0, .species = 1}};
+  VelocityHistogram histogram;
+  histogram.add(snapshot);
+  int filled = 0;
+  for (const Vec2& point : histogram.density(0)) filled += point.y() > 0.0 ? 1 : 0;
+  CHECK(filled == 2);
+}
+
 }  // namespace clatter
