@@ -70,9 +70,6 @@ class SpeciesTotals : public Observer<D> {
   /// The sums since the last call, or since the start.
   SpeciesTotalsWindow<D> close_window();
 
-  /// [S] number of particles.
-  const std::vector<std::size_t>& counts() const { return counts_; }
-
   /// Visits the members that a checkpoint keeps. The continued simulation must be at the same time.
   template <class Archive>
   void visit(Archive& io) {
