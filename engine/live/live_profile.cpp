@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/measure/mean_diameter.h"
+
 namespace clatter {
 
 template <int D>
-static IntVec<D> columns_in(const Model<D>& model, Axis axis) {
+static IntVec<D> columns_in(const Simulation<D>& simulation, Axis axis) {
   constexpr double kMaxColumns = 40.0;
   const auto along = static_cast<int>(axis);
-  const double diameters = std::round(model.box[along] / model.diameter);
+  const double diameters = std::round(simulation.model().box[along] / mean_diameter(simulation));
   IntVec<D> columns = IntVec<D>::Ones();
   columns[along] = static_cast<int>(std::clamp(diameters, 1.0, kMaxColumns));
   return columns;
@@ -19,7 +21,7 @@ template <int D>
 LiveProfile<D>::LiveProfile(Simulation<D>& simulation, double window, Axis axis)
     : axis_(axis),
       start_(simulation.time() + window),
-      observer_(simulation, columns_in(simulation.model(), axis),
+      observer_(simulation, columns_in(simulation, axis),
                 moment_layout<D>(profiled_fields(axis), simulation.model().spins,
                                  simulation.is_mixture())),
       observation_(simulation, observer_),
@@ -32,7 +34,7 @@ LiveProfile<D>::LiveProfile(Simulation<D>& simulation, double window, Axis axis,
                             ArchiveReader& saved)
     : axis_(axis),
       start_(0.0),
-      observer_(simulation, columns_in(simulation.model(), axis),
+      observer_(simulation, columns_in(simulation, axis),
                 moment_layout<D>(profiled_fields(axis), simulation.model().spins,
                                  simulation.is_mixture())),
       observation_(simulation, observer_),
@@ -60,7 +62,7 @@ Profile LiveProfile<D>::profile() const {
 
 template <int D>
 LiveResiduals<D>::LiveResiduals(Simulation<D>& simulation, double window, Axis axis)
-    : observer_(simulation, columns_in(simulation.model(), axis)),
+    : observer_(simulation, columns_in(simulation, axis)),
       observation_(simulation, observer_),
       timers_(simulation) {
   const auto along = static_cast<int>(axis);

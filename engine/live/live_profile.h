@@ -25,7 +25,7 @@ template <int D>
 class LiveProfile {
  public:
   /// Averages over windows of length `window` (simulation time); their scatter gives the standard
-  /// errors. Columns are about one diameter wide, at most 40 columns.
+  /// errors. Columns are about one mean diameter wide, at most 40 columns.
   LiveProfile(Simulation<D>& simulation, double window, Axis axis);
   /// Continues a saved profile. The simulation must be at the same time under the same laws.
   LiveProfile(Simulation<D>& simulation, double window, Axis axis, ArchiveReader& saved);

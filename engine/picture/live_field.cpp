@@ -7,17 +7,19 @@
 
 #include "engine/measure/field_maps.h"
 #include "engine/measure/fields.h"
+#include "engine/measure/mean_diameter.h"
 #include "engine/measure/residuals.h"
 
 namespace clatter {
 
 template <int D>
-static IntVec<D> cells_of_one_diameter(const Model<D>& model) {
+static IntVec<D> cells_of_one_diameter(const Simulation<D>& simulation) {
   constexpr double kMaxCells = D == 2 ? 512.0 : 64.0;
+  const double diameter = mean_diameter(simulation);
   IntVec<D> cells;
   for (int axis = 0; axis < D; ++axis) {
-    cells[axis] =
-        static_cast<int>(std::clamp(std::round(model.box[axis] / model.diameter), 1.0, kMaxCells));
+    const double along = std::round(simulation.model().box[axis] / diameter);
+    cells[axis] = static_cast<int>(std::clamp(along, 1.0, kMaxCells));
   }
   return cells;
 }
@@ -39,14 +41,15 @@ std::optional<typename LiveField<D>::Averages> LiveField<D>::averages_for(
   const Model<D>& model = simulation.model();
   const MomentLayout<D> layout = moment_layout<D>(fields, model.spins, simulation.is_mixture());
   return Averages{
-      CellIntegrals<D>(simulation, cells_of_one_diameter(model), layout, {view.estimator, {}}), {}};
+      CellIntegrals<D>(simulation, cells_of_one_diameter(simulation), layout, {view.estimator, {}}),
+      {}};
 }
 
 template <int D>
 std::optional<typename LiveField<D>::Closure> LiveField<D>::closure_for(
     const Simulation<D>& simulation, const View& view) {
   if (!view.field || !is_residual(*view.field)) return std::nullopt;
-  return Closure{Balance<D>(simulation, cells_of_one_diameter(simulation.model())), {}};
+  return Closure{Balance<D>(simulation, cells_of_one_diameter(simulation)), {}};
 }
 
 template <int D>

@@ -17,7 +17,7 @@ template <int D>
 class LiveField {
  public:
   /// Watches the simulation for `view.field` and `view.arrows`; the view must have at least one of
-  /// them. Cells are about one diameter of the largest particles wide, at most 512 along an axis in
+  /// them. Cells are about one mean diameter of the particles wide, at most 512 along an axis in
   /// 2D and 64 in 3D. The window has the length view.window, or up to an eighth more.
   LiveField(Simulation<D>& simulation, const View& view);
   /// Continues the field `before` of the same simulation.

@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "engine/initial/mixture_state.h"
+#include "engine/live/live_profile.h"
 #include "engine/measure/fields.h"
 #include "engine/measure/residuals.h"
 #include "engine/picture/live_field.h"
@@ -180,6 +182,21 @@ TEST_CASE("LiveField: it has at most 512 cells along an axis, and at least one")
   const auto simulation = lone_particle(gas(2000.0, 1.2, 1, 1.0), {0.5, 0.5}, {1.0, 0.0});
   LiveField<2> live(*simulation, view_of(Quantity::Density, 1.0));
   CHECK(map_of(live).cells == std::vector{512, 1});
+}
+
+TEST_CASE("LiveField: a large intruder does not widen the cells") {
+  Model<2> model;
+  model.box = {20.0, 10.0};
+  model.diameter = 5.0;
+  model.species = SpeciesLaws<2>{.pairs = std::vector<PairLaw>(4), .walls = {{}, {}}};
+  std::vector<Grain> grains(39);
+  grains.push_back({.radius = 2.5, .mass = 25.0, .species = 1});
+  Simulation<2> simulation(model, mixture_state<2>(model, grains, 1.0, 31));
+  LiveField<2> live(simulation, view_of(Quantity::Density, 1.0));
+  CHECK(map_of(live).cells == std::vector{18, 9});  // mean diameter 1.1
+  const LiveProfile<2> profile(simulation, 0.1, Axis::X);
+  simulation.run_until(0.25);
+  CHECK(profile.profile().edges.size() == 18 + 1);
 }
 
 TEST_CASE("LiveField: arrows are the vector field of blocks of cells") {
