@@ -166,7 +166,8 @@ inline constexpr auto kPolydispersityKeys = key_table(
 
 inline constexpr auto kSpeciesKeys = key_table(
     kRunCommands,
-    {{"name", "", "Name of the species, of letters, digits, `_` and `-`."},
+    {{"name", "",
+      "Name of the species, of letters, digits, `_` and `-`, without `error` as its last word."},
      {"count", "1", "Number of its particles. A species has either this key or a fraction."},
      {"area_fraction", "1", "Share of the box that its disks fill."},
      {"volume_fraction", "1", "Share of the box that its spheres fill."},

@@ -38,7 +38,9 @@ bool is_species_name(std::string_view name) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-';
   };
-  return !name.empty() && name.size() <= kLongest && std::ranges::all_of(name, allowed);
+  const bool names_error = name == "error" || name.ends_with("_error");
+  return !name.empty() && name.size() <= kLongest && std::ranges::all_of(name, allowed) &&
+         !names_error;
 }
 
 int count_of(const std::vector<Species>& species) {

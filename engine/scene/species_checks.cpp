@@ -32,7 +32,7 @@ static void check_names(const SceneInput& input, const toml::table& root, const 
     const Place place = place_in(root, "species", k, "name", file);
     if (!is_species_name(name)) {
       throw UserError(place, in_quotes(name) + " cannot be the name of a species",
-                      "use up to 40 letters, digits, _ and -");
+                      "use up to 40 letters, digits, _ and -, without \"error\" as the last word");
     }
     if (!seen.insert(name).second) {
       throw UserError(place, "a second species has the name " + in_quotes(name),

@@ -223,6 +223,8 @@ TEST_CASE("Species: mistakes are reported with their place and a fix") {
   for (const auto& [text, place, word] : std::vector<Case>{
            {"[[species]]\ncount = 1\n", "1:1", "'species.name' is missing"},
            {"[[species]]\nname = \"a b\"\ncount = 1\n", "2:1", "letters, digits, _ and -"},
+           {"[[species]]\nname = \"error\"\ncount = 1\n", "2:1", "\"error\" as the last word"},
+           {"[[species]]\nname = \"a_error\"\ncount = 1\n", "2:1", "cannot be the name"},
            {with("[[species]]\nname = \"a\"\ncount = 1\n"), "10:1", "a name of its own"},
            {with("[[species]]\nname = \"c\"\n"), "10:1", "exactly one of 'count'"},
            {with("[[species]]\nname = \"c\"\ncount = 1\narea_fraction = 0.1\n"), "12:1",
