@@ -189,6 +189,20 @@ static std::string axis_name(std::size_t axis) {
   return std::string(kAxes[axis].name);
 }
 
+// Numbers of the species that have particles.
+template <int D>
+std::vector<std::size_t> VelocityDistribution<D>::species_present() const {
+  std::vector<std::size_t> counts(species_), present;
+  if (species_ == 0) return present;
+  for (std::uint32_t i = 0; i < simulation_.particles().size(); ++i) {
+    ++counts[simulation_.grain(i).species];
+  }
+  for (std::size_t s = 0; s < species_; ++s) {
+    if (counts[s] > 0) present.push_back(s);
+  }
+  return present;
+}
+
 // The densities of one species.
 template <int D>
 void VelocityDistribution<D>::add_species(ResultTable& table, std::size_t species,
@@ -244,7 +258,7 @@ ResultTable VelocityDistribution<D>::components(const ObservableParts& parts) co
                       VelocitySums<D>::kCount, width));
     }
   }
-  for (std::size_t s = 0; s < species_; ++s) add_species(table, s, parts);
+  for (const std::size_t s : species_present()) add_species(table, s, parts);
   return table;
 }
 
@@ -278,7 +292,7 @@ ObservableResult VelocityDistribution<D>::result(const ObservableParts& parts) c
       signed_log_histogram("velocity_distribution.tails", "1", parts.coarse, axes, Sums::kCount));
   result.tables.push_back(
       log_histogram("velocity_distribution.speed", "1", parts.coarse, at.speeds, Sums::kCount));
-  for (std::size_t s = 0; s < species_; ++s) {
+  for (const std::size_t s : species_present()) {
     const std::string name = simulation_.model().species->name(s);
     result.means.emplace_back("velocity_distribution.temperature_ratio_" + name,
                               ratio_of(parts.fine, Sums::species_of(s) + 1, Sums::species_of(s)));

@@ -17,7 +17,8 @@ namespace clatter {
 /// logarithmic bins, and "velocity_distribution.speed" that of the speed. The means
 /// "velocity_distribution.a2" and ".a3" are the Sonine coefficients of the speed,
 /// ".second_moment_x", ".third_moment_x", ".fourth_moment_x" and so on moments of the components.
-/// In a mixture m is the mass of each particle, and T that of all; each species has its densities,
+/// In a mixture m is the mass of each particle, and T that of all; each species that
+/// has particles has its densities,
 /// ".temperature_ratio_large" T_s/T and ".a2_large" its Sonine coefficient.
 template <int D>
 class VelocityDistribution final : public Observable {
@@ -33,6 +34,7 @@ class VelocityDistribution final : public Observable {
  private:
   void find_velocities();
   void note(const Grain& grain);
+  std::vector<std::size_t> species_present() const;
   double centre();
   void add_species(ResultTable& table, std::size_t species, const ObservableParts& parts) const;
   Estimate species_a2(std::size_t species, const ObservableParts& parts) const;

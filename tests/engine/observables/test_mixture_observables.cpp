@@ -254,6 +254,18 @@ TEST_CASE("Mixture observables: g at contact is that of theory") {
   }
 }
 
+TEST_CASE("Mixture observables: velocities leave out species without particles") {
+  Model<2> model = elastic_mixture<2>();
+  State<2> start = mixed_gas(model, 30, 77, 2.0);
+  for (Grain& grain : start.grains) grain.species = grain.species == 1 ? 0 : grain.species;
+  Measure measure;
+  measure.velocity_distribution = {.interval = 4.0, .range = 4.0, .bins = 4};
+  const Measured result =
+      measured_of(model, start, ObservableKind::VelocityDistribution, 4.0, measure);
+  CHECK(table_of(result, "velocity_distribution").columns.size() == 2 + 2 * 3);
+  for (const auto& [name, mean] : result.observables.at(0).means) CHECK_FALSE(name.ends_with("_1"));
+}
+
 TEST_CASE_TEMPLATE("Mixture observables: correlations in time of each species", Dimension, Plane,
                    Space) {
   constexpr int D = Dimension::value;
