@@ -37,11 +37,12 @@ SpeciesRadialDistribution<D>::SpeciesRadialDistribution(const Simulation<D>& sim
 template <int D>
 void SpeciesRadialDistribution<D>::add_pairs() {
   const SpeciesLaws<D>& laws = *simulation_.model().species;
-  std::vector<double> counts(laws.count()), radii(laws.count());
+  std::vector<double> counts(laws.count()), radii(laws.count()), largest(laws.count());
   for (std::uint32_t i = 0; i < simulation_.particles().size(); ++i) {
     const Grain& grain = simulation_.grain(i);
     counts[grain.species] += 1.0;
     radii[grain.species] += grain.radius;
+    largest[grain.species] = std::max(largest[grain.species], grain.radius);
   }
   const std::vector<double> weights = contact_weights(kContactWidth, kContactBins);
   for (std::size_t t = 0; t < laws.count(); ++t) {
@@ -49,7 +50,8 @@ void SpeciesRadialDistribution<D>::add_pairs() {
       Pair& pair = pairs_.emplace_back();
       pair.name = laws.name(s) + '+' + laws.name(t);
       pair.number = s == t ? 0.5 * counts[s] * (counts[s] - 1.0) : counts[s] * counts[t];
-      if (!(pair.number > 0.0)) continue;
+      const double reach = low_ * kContactWidth * kContactBins;
+      if (!(pair.number > 0.0) || largest[s] + largest[t] + reach > range_) continue;
       const double contact = radii[s] / counts[s] + radii[t] / counts[t];
       for (std::size_t k = 0; k < weights.size(); ++k) {
         const double from = contact + low_ * kContactWidth * static_cast<double>(k);
@@ -115,6 +117,7 @@ ObservableResult SpeciesRadialDistribution<D>::result(const ObservableParts& par
   for (std::size_t pair = 0; pair < pairs_.size(); ++pair) {
     if (!(pairs_[pair].number > 0.0)) continue;
     add("g_" + pairs_[pair].name, 1 + pair, pairs_[pair].number);
+    if (pairs_[pair].contact_factors.empty()) continue;
     result.means.emplace_back("radial_distribution.contact_" + pairs_[pair].name,
                               ratio_of(parts.fine, 1 + pair, 0));
   }

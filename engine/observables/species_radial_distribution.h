@@ -12,7 +12,8 @@ namespace clatter {
 /// g(r) of all pairs of a mixture in a periodic box, and g_st(r) of the pairs of each two species
 /// (theory 11.6, 12.16). Bins begin at the smallest diameter. Table "radial_distribution" has a
 /// column "g_small+large" for each two species. The means "radial_distribution.contact_small+large"
-/// are the values at contact, extrapolated from distances near it.
+/// are the values at contact, extrapolated from distances near it. A pair has none if these
+/// distances go beyond the range.
 template <int D>
 class SpeciesRadialDistribution final : public Observable {
  public:
@@ -28,7 +29,7 @@ class SpeciesRadialDistribution final : public Observable {
   struct Pair {
     std::string name;
     double number = 0.0;                  // of pairs of particles
-    std::vector<double> contact_factors;  // of a pair at each distance near contact
+    std::vector<double> contact_factors;  // of each distance near contact; empty: none
   };
 
   void add_pairs();

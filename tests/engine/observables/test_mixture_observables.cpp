@@ -254,6 +254,30 @@ TEST_CASE("Mixture observables: g at contact is that of theory") {
   }
 }
 
+// Distances near contact reach 0.2 smallest diameters beyond it.
+TEST_CASE("Mixture observables: only distances within the range give a value at contact") {
+  const Model<2> model = elastic_mixture<2>();
+  const State<2> start = mixed_gas(model, 30, 74, 2.0);
+  double largest = 0.0, smallest = 1.0;
+  std::string species;
+  for (const Grain& grain : start.grains) {
+    if (2.0 * grain.radius > largest) species = std::to_string(grain.species);
+    largest = std::max(largest, 2.0 * grain.radius);
+    smallest = std::min(smallest, 2.0 * grain.radius);
+  }
+  const std::string name = "radial_distribution.contact_" + species + '+' + species;
+  const auto has = [&](double range) {
+    Measure measure;
+    measure.radial_distribution = {.interval = 4.0, .range = range, .bins = 10};
+    const Measured result =
+        measured_of(model, start, ObservableKind::RadialDistribution, 4.0, measure);
+    return std::ranges::any_of(result.observables.at(0).means,
+                               [&](const auto& mean) { return mean.first == name; });
+  };
+  CHECK_FALSE(has(largest + 0.19 * smallest));
+  CHECK(has(largest + 0.21 * smallest));
+}
+
 TEST_CASE("Mixture observables: velocities leave out species without particles") {
   Model<2> model = elastic_mixture<2>();
   State<2> start = mixed_gas(model, 30, 77, 2.0);
