@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "engine/dynamics/cell_of.h"
@@ -22,11 +23,18 @@ OverlapRemoval<D>::Grid::Grid(const Vec<D>& box, double diameter) {
   first.resize(cells + 1);
 }
 
+template <int D>
+std::uint32_t OverlapRemoval<D>::Grid::index_of(const IntVec<D>& cell) const {
+  int index = 0;
+  for (int axis = D - 1; axis >= 0; --axis) index = index * counts[axis] + cell[axis];
+  return static_cast<std::uint32_t>(index);
+}
+
 // The grids end with that of the smallest particle. Few sizes make few grids.
 template <int D>
 OverlapRemoval<D>::OverlapRemoval(const Domain<D>& domain, std::vector<double> radii,
                                   Random& random)
-    : domain_(domain), radii_(std::move(radii)) {
+    : domain_(domain), radii_(std::move(radii)), places_(radii_.size()) {
   const double largest = radii_.empty() ? 0.5 : *std::ranges::max_element(radii_);
   double smallest = largest;
   for (const double radius : radii_) smallest = std::min(smallest, radius);
@@ -40,106 +48,134 @@ OverlapRemoval<D>::OverlapRemoval(const Domain<D>& domain, std::vector<double> r
       ++level;
     }
     levels_.push_back(level);
-    Vec<D>& place = places_.emplace_back();
-    for (int axis = 0; axis < D; ++axis) place[axis] = random.uniform() * domain.box[axis];
-    keep_inside(i);
+    grids_[level].members.push_back(i);
+  }
+  for (Grid& grid : grids_) {
+    for (const std::uint32_t i : grid.members) place(i, random);
+    sort_into_cells(grid);
   }
 }
 
+// Draws places until one is free, at most kTries times: the large particles may cover the box.
 template <int D>
-bool OverlapRemoval<D>::advance(const StopRequest& pause) {
-  constexpr int kMostSweeps = 20'000;
-  while (overlaps_ && sweeps_ < kMostSweeps) {
-    if (pause.made()) return false;
-    sort_into_cells();
-    overlaps_ = sweep();
-    ++sweeps_;
+void OverlapRemoval<D>::place(std::uint32_t particle, Random& random) {
+  constexpr int kTries = 100;
+  for (int k = 0; k < kTries; ++k) {
+    for (int axis = 0; axis < D; ++axis) {
+      places_[particle][axis] = random.uniform() * domain_.box[axis];
+    }
+    keep_inside(particle);
+    if (is_free(particle)) return;
+  }
+}
+
+// Whether the centre is in no particle of a coarser grid.
+template <int D>
+bool OverlapRemoval<D>::is_free(std::uint32_t particle) const {
+  const Vec<D>& centre = places_[particle];
+  for (std::size_t level = 0; level < levels_[particle]; ++level) {
+    bool within = false;
+    visit_near(grids_[level], centre, [&](std::uint32_t other) {
+      const double radius = radii_[other];
+      const double square = domain_.shortest(places_[other] - centre).squaredNorm();
+      within = within || square < radius * radius;
+    });
+    if (within) return false;
   }
   return true;
 }
 
 template <int D>
+bool OverlapRemoval<D>::advance(const StopRequest& pause) {
+  constexpr int kPatience = 1000;  // sweeps without a clearly smaller overlap
+  while (overlap_ > 0.0 && sweeps_ - best_sweep_ <= kPatience) {
+    if (pause.made()) return false;
+    for (Grid& grid : grids_) sort_into_cells(grid);
+    overlap_ = sweep();
+    ++sweeps_;
+    if (sweeps_ == 1) first_ = overlap_;
+    if (overlap_ >= 0.9 * best_) continue;
+    best_ = overlap_;
+    best_sweep_ = sweeps_;
+  }
+  return true;
+}
+
+template <int D>
+double OverlapRemoval<D>::progress() const {
+  if (sweeps_ == 0) return 0.0;
+  return overlap_ > 0.0 ? std::max(0.0, 1.0 - overlap_ / first_) : 1.0;
+}
+
+template <int D>
 std::vector<Vec<D>> OverlapRemoval<D>::take() {
-  return overlaps_ ? std::vector<Vec<D>>() : std::exchange(places_, {});
+  return overlap_ > 0.0 ? std::vector<Vec<D>>() : std::exchange(places_, {});
 }
 
-// A counting sort of each grid.
+// A counting sort.
 template <int D>
-void OverlapRemoval<D>::sort_into_cells() {
-  std::vector<std::uint32_t> cells(places_.size());
-  for (Grid& grid : grids_) std::ranges::fill(grid.first, 0);
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    Grid& grid = grids_[levels_[i]];
-    const IntVec<D> cell = cell_of<D>(places_[i], grid.widths, grid.counts);
-    std::uint32_t index = 0;
-    for (int axis = D - 1; axis >= 0; --axis) {
-      index = index * static_cast<std::uint32_t>(grid.counts[axis]) +
-              static_cast<std::uint32_t>(cell[axis]);
+void OverlapRemoval<D>::sort_into_cells(Grid& grid) {
+  std::vector<std::uint32_t> cells;
+  std::ranges::fill(grid.first, 0);
+  for (const std::uint32_t i : grid.members) {
+    const auto cell = grid.index_of(cell_of<D>(places_[i], grid.widths, grid.counts));
+    cells.push_back(cell);
+    ++grid.first[cell + 1];
+  }
+  for (std::size_t k = 1; k < grid.first.size(); ++k) grid.first[k] += grid.first[k - 1];
+  grid.order.resize(grid.members.size());
+  std::vector<std::uint32_t> next(grid.first.begin(), grid.first.end() - 1);
+  for (std::size_t k = 0; k < cells.size(); ++k) grid.order[next[cells[k]]++] = grid.members[k];
+}
+
+// Calls `visit` with each particle of a grid in the cell of a place and in the adjacent ones.
+template <int D>
+template <typename Visit>
+void OverlapRemoval<D>::visit_near(const Grid& grid, const Vec<D>& place, Visit visit) const {
+  if (grid.members.empty()) return;
+  const IntVec<D> own = cell_of<D>(place, grid.widths, grid.counts);
+  IntVec<D> step = IntVec<D>::Constant(-1);
+  while (step[D - 1] <= 1) {
+    IntVec<D> cell = own + step;
+    bool exists = true;
+    for (int axis = 0; axis < D; ++axis) {
+      const int count = grid.counts[axis];
+      if (cell[axis] >= 0 && cell[axis] < count) continue;
+      exists = exists && domain_.periodic[axis] && count >= 3;
+      cell[axis] -= cell[axis] < 0 ? -count : count;
     }
-    cells[i] = index;
-    ++grid.first[index + 1];
-  }
-  std::vector<std::vector<std::uint32_t>> next;
-  for (Grid& grid : grids_) {
-    for (std::size_t k = 1; k < grid.first.size(); ++k) grid.first[k] += grid.first[k - 1];
-    grid.order.resize(grid.first.back());
-    next.emplace_back(grid.first.begin(), grid.first.end() - 1);
-  }
-  for (std::uint32_t i = 0; i < places_.size(); ++i) {
-    grids_[levels_[i]].order[next[levels_[i]][cells[i]]++] = i;
+    const std::uint32_t index = exists ? grid.index_of(cell) : 0;
+    const std::uint32_t end = exists ? grid.first[index + 1] : grid.first[0];
+    for (std::uint32_t k = grid.first[index]; k < end; ++k) visit(grid.order[k]);
+    for (int axis = 0; ++step[axis] > 1 && axis < D - 1; ++axis) step[axis] = -1;
   }
 }
 
-// Parts all pairs once: each particle from those of its grid and of coarser ones. Returns whether
-// any overlapped.
+// Parts all pairs once: each particle from those of its grid and of coarser ones. Returns the sum
+// of their overlaps.
 template <int D>
-bool OverlapRemoval<D>::sweep() {
-  bool any = false;
+double OverlapRemoval<D>::sweep() {
+  double sum = 0.0;
   for (std::uint32_t i = 0; i < places_.size(); ++i) {
     for (std::size_t level = 0; level <= levels_[i]; ++level) {
-      const Grid& grid = grids_[level];
-      const IntVec<D> own = cell_of<D>(places_[i], grid.widths, grid.counts);
-      IntVec<D> step = IntVec<D>::Constant(-1);
-      while (step[D - 1] <= 1) {
-        any = part_from(i, grid, own + step, level == levels_[i]) || any;
-        for (int axis = 0; ++step[axis] > 1 && axis < D - 1; ++axis) step[axis] = -1;
-      }
+      const bool later_only = level == levels_[i];
+      visit_near(grids_[level], places_[i], [&](std::uint32_t other) {
+        if (!later_only || other > i) sum += part(i, other);
+      });
     }
   }
-  return any;
-}
-
-// Parts a particle from those of a cell, or from those of them that have higher numbers. The cell
-// may be one beyond the box.
-template <int D>
-bool OverlapRemoval<D>::part_from(std::uint32_t particle, const Grid& grid, const IntVec<D>& cell,
-                                  bool later_only) {
-  std::size_t index = 0;
-  for (int axis = D - 1; axis >= 0; --axis) {
-    const int count = grid.counts[axis];
-    int at = cell[axis];
-    if (at < 0 || at >= count) {
-      if (!domain_.periodic[axis] || count < 3) return false;
-      at -= at < 0 ? -count : count;
-    }
-    index = index * static_cast<std::size_t>(count) + static_cast<std::size_t>(at);
-  }
-  bool any = false;
-  for (std::uint32_t k = grid.first[index]; k < grid.first[index + 1]; ++k) {
-    const std::uint32_t other = grid.order[k];
-    if (!later_only || other > particle) any = part(particle, other) || any;
-  }
-  return any;
+  return sum;
 }
 
 // Moves two particles apart if they overlap. Each moves by a share like the volume of the other.
+// Returns the overlap over the distance at contact.
 template <int D>
-bool OverlapRemoval<D>::part(std::uint32_t a, std::uint32_t b) {
+double OverlapRemoval<D>::part(std::uint32_t a, std::uint32_t b) {
   constexpr double kGap = 1e-3;  // that remains, as a share of the distance at contact
   const double distance = radii_[a] + radii_[b];
   Vec<D> way = domain_.shortest(places_[b] - places_[a]);
   const double square = way.squaredNorm();
-  if (square >= distance * distance) return false;
+  if (square >= distance * distance) return 0.0;
   const double length = std::sqrt(square);
   way = length > 0.0 ? Vec<D>(way / length) : Vec<D>(Vec<D>::Unit(static_cast<int>(a % D)));
   const auto cube = [](double r) { return D == 2 ? r * r : r * r * r; };
@@ -149,7 +185,7 @@ bool OverlapRemoval<D>::part(std::uint32_t a, std::uint32_t b) {
   places_[b] += apart * volume_a / (volume_a + volume_b) * way;
   keep_inside(a);
   keep_inside(b);
-  return true;
+  return std::max(1.0 - length / distance, std::numeric_limits<double>::min());
 }
 
 template <int D>

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "engine/dimension.h"
@@ -247,8 +248,10 @@ class StartWork : public StartMaker::Work {
       positions_ = removal_->take();
       removal_.reset();
       if (positions_.empty()) {
+        const bool fits = lattice_capacity(room_) >= count();
         throw UserError({}, "the particles of the mixture have found no places without overlaps",
-                        "give fewer of them, or a larger box");
+                        std::string("give fewer of them, or a larger box") +
+                            (fits ? ", or set particles.start.layout = \"lattice\"" : ""));
       }
     }
     if (insertion_) {
@@ -275,6 +278,7 @@ class StartWork : public StartMaker::Work {
   }
 
   double progress() const override {
+    if (removal_) return removal_->progress();
     if (insertion_) {
       return static_cast<double>(insertion_->placed()) / std::max(1, count());
     }

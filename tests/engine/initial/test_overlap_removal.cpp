@@ -48,6 +48,29 @@ std::vector<Grain> large_among_small(int count) {
   return grains;
 }
 
+/// Periodic disks in a square that they fill to a fraction, with the sweeps that removal needs. It
+/// looks for a pause before each.
+struct Removal {
+  int sweeps = 0;
+  bool found = false;
+  std::vector<double> progress;
+};
+Removal removal_of(const std::vector<Grain>& grains, double fraction) {
+  std::vector<double> radii;
+  for (const Grain& grain : grains) radii.push_back(grain.radius);
+  Random random(8, Stream::Placement, 0, 0);
+  OverlapRemoval<2> work(box_for<2>(grains, fraction, false).domain(), radii, random);
+  Removal result;
+  bool pauses = false;
+  result.progress.push_back(work.progress());
+  while (!work.advance([&] { return pauses = !pauses; })) {
+    ++result.sweeps;
+    result.progress.push_back(work.progress());
+  }
+  result.found = !work.take().empty();
+  return result;
+}
+
 }  // namespace
 
 TEST_CASE_TEMPLATE("Overlap removal: dense particles of any sizes find places in the box",
@@ -83,6 +106,34 @@ TEST_CASE_TEMPLATE("Overlap removal: dense particles of any sizes find places in
 TEST_CASE("Overlap removal: particles without room get no places") {
   const std::vector<Grain> grains(100);
   CHECK(mixture_state<2>(box_for<2>(grains, 0.95, false), grains, 1.0, 6).positions.empty());
+  // The overlaps soon fall no more.
+  const Removal removal = removal_of(grains, 0.95);
+  CHECK_FALSE(removal.found);
+  CHECK(removal.sweeps < 4000);
+}
+
+TEST_CASE("Overlap removal: polydisperse disks find places close to random close packing") {
+  std::vector<Grain> grains(900);
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    grains[i].radius = 0.3 + 0.4 * (static_cast<double>(i) + 0.5) / 900.0;
+  }
+  const Removal removal = removal_of(grains, 0.8);
+  CHECK(removal.found);
+  CHECK(removal.sweeps > 10);
+  CHECK(removal.progress.front() == 0.0);
+  CHECK(removal.progress[5] > 0.1);
+  CHECK(removal.progress[5] < 1.0);
+  for (const double part : removal.progress) CHECK((part >= 0.0 && part <= 1.0));
+}
+
+// Particles that begin deep in a large one would leave it by its radius over a diameter, and each
+// push others, for hundreds of sweeps.
+TEST_CASE("Overlap removal: particles do not begin within a large one") {
+  std::vector<Grain> grains(5000);
+  grains[2500].radius = 20.0;
+  const Removal removal = removal_of(grains, 0.3);
+  CHECK(removal.found);
+  CHECK(removal.sweeps < 60);
 }
 
 // The large particles have the lowest numbers, and read several lists.

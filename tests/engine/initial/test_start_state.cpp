@@ -5,10 +5,13 @@
 #include <complex>
 #include <numbers>
 #include <set>
+#include <string>
 #include <vector>
 
+#include "engine/error.h"
 #include "engine/initial/start_state.h"
 #include "engine/physics/theory.h"
+#include "engine/scene/scene_file.h"
 #include "engine/scene/state_file.h"
 #include "tests/engine/support/gas.h"
 #include "tests/engine/support/rooms.h"
@@ -569,4 +572,26 @@ TEST_CASE("Start state: pauses while it is made do not change it") {
 TEST_CASE("Start state: a saved state starts a run, bit for bit") {
   check_saved<2>();
   check_saved<3>();
+}
+
+TEST_CASE("Start state: a mixture that finds no random places may have a lattice") {
+  // A face-centred lattice of 4 x 27 spheres fits.
+  const auto error_of = [](const std::string& diameter, int count) {
+    const Scene scene = parse_scene(
+        "box.size = [4.25, 4.25, 4.25]\n[[species]]\nname = \"a\"\ncount = 50\n"
+        "[[species]]\nname = \"b\"\ndiameter = " +
+            diameter + "\ncount = " + std::to_string(count),
+        "scene");
+    try {
+      start_state<3>(scene, 1);
+    } catch (const UserError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(error_of("0.98", 58).find("or set particles.start.layout = \"lattice\"") !=
+        std::string::npos);
+  const std::string small = error_of("0.5", 420);
+  CHECK(small.find("or a larger box") != std::string::npos);
+  CHECK(small.find("lattice") == std::string::npos);
 }
