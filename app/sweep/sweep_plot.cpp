@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "engine/error.h"
 #include "engine/scene/field.h"
@@ -190,16 +191,38 @@ constexpr std::array<Symbol, 18> kSymbols = {
      {"particles.restitution", "restitution α", ""},
      {"particles.tangential_restitution", "tangential restitution β", ""}}};
 
-// "restitution" of "particles.restitution".
-std::string short_name(const std::string& column) {
-  return in_words(column.substr(column.rfind('.') + 1));
+// A column that is a key.
+struct ColumnKey {
+  std::string path;   // of its documentation, which all walls, species and pairs share
+  std::string owner;  // "small+large" of a pair, "large" of a species; empty: none
+};
+
+ColumnKey key_of(const std::string& column) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= column.size(); begin += parts.back().size() + 1) {
+    parts.push_back(column.substr(begin, column.find('.', begin) - begin));
+  }
+  ColumnKey key;
+  if (parts[0] == "species" && parts.size() > 2) {
+    key.owner = parts[1];
+    parts.erase(parts.begin() + 1);
+  } else if (parts[0] == "pair" && parts.size() > 3) {
+    key.owner = parts[1] + '+' + parts[2];
+    parts.erase(parts.begin() + 1, parts.begin() + 3);
+  } else if (parts[0] == "walls" && parts.size() > 2) {
+    const std::string side = std::exchange(parts[1], "SIDE");
+    if (parts[2] == "species" && parts.size() > 4) {
+      key.owner = std::exchange(parts[3], "NAME") + " at " + side;
+    }
+  }
+  for (const std::string& part : parts) key.path += (key.path.empty() ? "" : ".") + part;
+  return key;
 }
 
-// The path of the documentation of a key. All walls share theirs.
-std::string documented_path(const std::string& column) {
-  constexpr std::string_view kWalls = "walls.";
-  if (!column.starts_with(kWalls)) return column;
-  return "walls.SIDE" + column.substr(std::min(column.find('.', kWalls.size()), column.size()));
+// "restitution" of "particles.restitution", "mass of large" of "species.large.mass".
+std::string short_name(const std::string& column) {
+  const std::string owner = key_of(column).owner;
+  return in_words(column.substr(column.rfind('.') + 1)) + (owner.empty() ? "" : " of " + owner);
 }
 
 std::string label_of_column(const std::string& column) {
@@ -208,7 +231,7 @@ std::string label_of_column(const std::string& column) {
     const std::string unit(symbol->unit);
     return std::string(symbol->symbol) + (unit.empty() ? "" : " (" + unit + ")");
   }
-  const std::string path = documented_path(column);
+  const std::string path = key_of(column).path;
   for (const KeyDoc& key : key_docs()) {
     if (key.path() != path || key.key.unit.empty()) continue;
     const std::string unit(key.key.unit);

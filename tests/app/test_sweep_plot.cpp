@@ -174,6 +174,29 @@ TEST_CASE("Sweep plot: labels are symbols with units, or texts of the user") {
         std::tuple("X", "Y", "title", "caption"));
 }
 
+TEST_CASE("Sweep plot: keys of species, pairs and walls have units, and names in series") {
+  const SweepTable table = table_of({{{"species.heavy_one.mass", 2.0},
+                                      {"species.a.polydispersity.width", 0.2},
+                                      {"pair.a.b.restitution", 0.8},
+                                      {"pair.a.a.restitution", 0.9},
+                                      {"walls.left.temperature", 3.0},
+                                      {"walls.left.species.a.temperature", 4.0}}});
+  for (const auto& [column, label, name] :
+       std::vector<std::tuple<std::string, std::string, std::string>>{
+           {"species.heavy_one.mass", "mass of heavy_one (m)", "mass of heavy_one 2"},
+           {"species.a.polydispersity.width", "width of a", "width of a 0.2"},
+           {"pair.a.b.restitution", "restitution of a+b", "restitution of a+b 0.8"},
+           {"pair.a.a.restitution", "restitution of a+a", "restitution of a+a 0.9"},
+           {"walls.left.temperature", "temperature (m a^2/t^2)", "temperature 3"},
+           {"walls.left.species.a.temperature", "temperature of a at left (m a^2/t^2)",
+            "temperature of a at left 4"}}) {
+    CAPTURE(column);
+    const Chart chart = chart_of(table, {}, {.x = column, .y = column, .by = column});
+    CHECK(chart.x.label == label);
+    CHECK(chart.series[0].name == name);
+  }
+}
+
 TEST_CASE("Sweep plot: a theory has one line per series, or one for all if it depends on x only") {
   const std::string refined = "theory.temperature_refined", simple = "theory.temperature_simple";
   // Points in the order of a refinement: not sorted by x.
