@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/error.h"
-#include "engine/laws/limits.h"
+#include "engine/scene/limits.h"
 #include "engine/text.h"
 
 namespace clatter {
@@ -189,8 +189,10 @@ class SpeciesOfType {
       }
     }
     if (!species.polydispersity) return;
-    if (species.smallest_diameter() > 0.0) return;
-    refuse_particle(frame_, first(), path_, which() + " have too different diameters",
+    if (species.polydispersity->width <= kMaxUniformWidth) return;
+    refuse_particle(frame_, first(), path_,
+                    which() + " have too different diameters, of a width of more than " +
+                        number_text(kMaxUniformWidth),
                     "give particles of different sizes different types");
   }
 

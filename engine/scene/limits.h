@@ -18,5 +18,8 @@ inline constexpr double kMaxAzimuth = 36000.0;
 inline constexpr double kMaxElevation = 90.0;
 inline constexpr double kMaxViewAngle = 120.0;
 inline constexpr double kMaxVolume = 1e3;
+/// Largest widths of polydispersity. A Gaussian of width 1/3 reaches down to 0.
+inline constexpr double kMaxUniformWidth = 0.99;
+inline constexpr double kMaxGaussianWidth = 0.33;
 
 }  // namespace clatter

@@ -48,8 +48,8 @@ static void check_spreads(const SceneInput& input, const toml::table& root,
     if (!species.polydispersity) continue;
     const Place place = place_in(root, "species", k, "polydispersity.width", file);
     const double width = species.polydispersity->width;
-    // A Gaussian of width 1/3 reaches down to 0.
-    const double most = species.polydispersity->kind == Spread::Gaussian ? 0.33 : 0.99;
+    const bool gaussian = species.polydispersity->kind == Spread::Gaussian;
+    const double most = gaussian ? kMaxGaussianWidth : kMaxUniformWidth;
     if (width > most) {
       throw UserError(place, "at a width of " + number_text(width) + " diameters reach down to 0",
                       "choose a width of at most " + number_text(most));

@@ -234,6 +234,11 @@ TEST_CASE("Mixture convert: unequal particles of one type are polydisperse, or r
           {"a.dump:11: the mass is 1e+12", "1e+09"});
   refused(dump_of(columns, {"1 1 1 1 0 1 0 0 0.5 2", "2 2 3 1 0 0 0 0 1e-5 1"}),
           {"a.dump:11: the diameter is 2e-05", "--scale"});
+  // The width (3 - 0.012) / (3 + 0.012) is more than that of any scene.
+  refused(dump_of(columns, {"1 1 2 2 0 1 0 0 1.5 2", "2 1 5 1 0 0 0 0 0.006 1"}),
+          {"a.dump:10: particles of the type \"type1\" have too different diameters, "
+           "of a width of more than 0.99",
+           "different types"});
   refused(dump_of(columns, {"1 1 1 1 0 1 0 0 0.5 2", "2 2 3 1 0 0 0 0 5 1"}),
           {"the box is 9 along x, not more than a diameter"});
   check_refused(shell, "clatter convert a.vtp out.csv", {"a.vtp: there is no such file"});
