@@ -65,7 +65,13 @@ static std::vector<Spin<D>> gaussian_spins(const std::vector<Grain>& grains, dou
   return spins;
 }
 
-// A random choice of `count` of the sites.
+// Whether particles differ at most in other properties.
+static bool have_equal_radii(const std::vector<Grain>& grains) {
+  return std::ranges::all_of(
+      grains, [&](const Grain& grain) { return grain.radius == grains.front().radius; });
+}
+
+// A random choice of `count` of the sites, in random order.
 template <int D>
 static void choose(std::vector<Vec<D>>& sites, std::size_t count, Random& random) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -139,7 +145,8 @@ class Melting {
     if (!gas_.prepare(pause)) return false;
     for (; round_ <= kRounds; ++round_) {
       const std::uint64_t most = collisions_after(round_);
-      const bool arrived = gas_.run_until(kLongestRound * round_, most, kNoLimit, pause);
+      const bool arrived =
+          gas_.run_until(kLongestRound * model_.diameter * round_, most, kNoLimit, pause);
       if (!arrived && gas_.counts().collisions() < most) return false;
       if (is_fluid(gas_, sites_)) break;
     }
@@ -159,8 +166,8 @@ class Melting {
   static constexpr std::size_t kSites = 10'000;
   static constexpr int kRounds = 10;
   static constexpr std::uint64_t kCollisionsPerRound = 20;  // per particle
-  // Longest time of a round. At T = 1 in a dense gas a round takes less than 10; a lone particle
-  // never collides.
+  // Longest time of a round, per diameter. At T = 1 in a dense gas a round takes less than 10; a
+  // lone particle never collides.
   static constexpr double kLongestRound = 100.0;
 
   static Model<D> elastic(const Room<D>& room) {
@@ -232,7 +239,7 @@ class StartWork : public StartMaker::Work {
     grains_ = grains_of(scene_);
     if (start.layout != Layout::Random) {
       positions_ = lattice_positions(room_, count(), seed_);
-    } else if (!grains_.empty()) {
+    } else if (!have_equal_radii(grains_)) {
       std::vector<double> radii;
       for (const Grain& grain : grains_) radii.push_back(grain.radius);
       removal_.emplace(Domain<D>{.box = room_.box, .periodic = periodic()}, std::move(radii),
@@ -292,6 +299,8 @@ class StartWork : public StartMaker::Work {
     State<D> state;
     const Vec<D> corner = scene_.clear_corner();
     if (!grains_.empty()) {
+      // Places of equal particles may have an order in space; the species must be anywhere.
+      if (have_equal_radii(grains_)) choose<D>(positions_, positions_.size(), random_);
       for (Vec<D>& position : positions_) position += corner;
       state = state_at_places<D>(positions_, grains_, start.temperature, seed_, stop_);
       if (scene_.spins()) {
@@ -318,7 +327,11 @@ class StartWork : public StartMaker::Work {
     for (int axis = 0; axis < D; ++axis) periodic[axis] = !room_.walled[axis];
     return periodic;
   }
-  double fraction() const { return packing_fraction(D, count() / room_.box.prod()); }
+  // Packing fraction of particles that all have the largest diameter.
+  double fraction() const {
+    const double d = room_.diameter, cube = D == 2 ? d * d : d * d * d;
+    return packing_fraction(D, count() * cube / room_.box.prod());
+  }
 
   bool is_complete() const {
     return scene_.particles.start.layout == Layout::File ||

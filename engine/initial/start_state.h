@@ -41,8 +41,9 @@ class StartMaker {
 /// A random layout uses random insertion up to a packing fraction of 0.54 for disks and 0.37 for
 /// spheres. Up to 0.7 and 0.54, where a fluid exists, it melts a lattice. Above it is a lattice
 /// with random vacancies. From 0.49 on a crystal of spheres is stable beside the fluid, and some of
-/// its order may remain. The scene must be validated: its count fits one of the lattices.
-/// Throws Interrupted.
+/// its order may remain. Species of one diameter have these places at random, and those of several
+/// diameters have the places of OverlapRemoval. The scene must be validated: its count fits one of
+/// the lattices. Throws Interrupted.
 template <int D>
 State<D> start_state(const Scene& scene, std::uint64_t seed, const StopRequest& stop = {});
 

@@ -43,7 +43,7 @@ constexpr GalleryHash kGallery[] = {
     {"dense.toml", 0xa8462d63d5bf47fa},
     {"equilibrium.toml", 0x2f6ceb84347bc73e},
     {"heating_walls.toml", 0x940f2efa3bae110f},
-    {"mixed_atmosphere.toml", 0x6efeeb73a1039e1c},
+    {"mixed_atmosphere.toml", 0x6d5c4499cbcd2fe3},
     {"polydisperse.toml", 0xd881bace5d26dfe0},
     {"rough_cooling.toml", 0x668b837c3859e598},
     {"rough_driven.toml", 0xdc18b4f8fcead24e},

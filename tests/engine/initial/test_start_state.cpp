@@ -595,3 +595,30 @@ TEST_CASE("Start state: a mixture that finds no random places may have a lattice
   CHECK(small.find("or a larger box") != std::string::npos);
   CHECK(small.find("lattice") == std::string::npos);
 }
+
+TEST_CASE("Start state: species of one diameter have the places of equal particles, at random") {
+  for (const int count : {200, 380}) {  // insertion, melting
+    CAPTURE(count);
+    const std::string box = "box.size = [24, 20]\n";
+    const Scene alike = parse_scene(box + "particles.count = " + std::to_string(count), "scene");
+    const std::string half = "count = " + std::to_string(count / 2);
+    const Scene mixed = parse_scene(box + "[[species]]\nname = \"a\"\n" + half +
+                                        "\n[[species]]\nname = \"b\"\nmass = 4\n" + half,
+                                    "scene");
+    const State<2> state = start_state<2>(mixed, 3);
+    const auto sorted = [](std::vector<Vec2> places) {
+      std::ranges::sort(places, {}, [](const Vec2& r) { return std::pair(r[0], r[1]); });
+      return places;
+    };
+    CHECK(sorted(state.positions) == sorted(start_state<2>(alike, 3).positions));
+    Vec2 mean = Vec2::Zero();
+    for (std::size_t i = 0; i < state.positions.size(); ++i) {
+      const bool first = 2 * i < state.positions.size();
+      CHECK(state.grains[i].species == (first ? 0 : 1));
+      if (first) mean += state.positions[i] / (count / 2);
+    }
+    // Four standard errors of half the places.
+    CHECK(std::fabs(mean[0] - 12.0) < 4.0 * 24.0 / std::sqrt(12.0 * count));
+    CHECK(std::fabs(mean[1] - 10.0) < 4.0 * 20.0 / std::sqrt(12.0 * count));
+  }
+}
