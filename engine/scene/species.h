@@ -45,9 +45,9 @@ struct Species {
     const double area = diameter * diameter;
     return mass.value_or(density * (dimension == 2 ? area : area * diameter));
   }
-  /// Diameter of particle `number` of `of` particles, in increasing order: the quantile
-  /// (number + 1/2) / of of the distribution.
-  double diameter_of(int number, int of) const { return quantile((number + 0.5) / of); }
+  /// Diameter of particle `number` of `total` particles, in increasing order: the quantile
+  /// (number + 1/2) / total of the distribution.
+  double diameter_of(int number, int total) const { return quantile((number + 0.5) / total); }
   /// Limits of the diameters.
   double smallest_diameter() const { return quantile(0.0); }
   double largest_diameter() const { return quantile(1.0); }
