@@ -92,8 +92,8 @@ int dimension_of(const ParticleFrame& frame, const FrameChoice& choice,
 /// Moves the lower corner of the box to 0, and disks to z = 0.
 void move_corner(ParticleFrame& frame, const ParticleFrame::Vector& corner);
 
-/// Numbers the types of a frame anew, from 0 on, and gives them names: that of `names` for a number
-/// there, otherwise type and the number, as in type2.
+/// Replaces the types of a frame by the numbers 0, 1, 2 and so on. Each type gets the name that
+/// `names` has for its former number. Without one its name is "type" and that number: type2.
 void name_types(ParticleFrame& frame, const std::map<int, std::string>& names = {});
 
 /// The number of a frame in the run that wrote it, from the number in a file; 0 if that has no

@@ -194,7 +194,9 @@ void box_panel(Session& session, Controls& controls) {
          .name = kSizes[axis],
          .symbol = kLengths[axis],
          .unit = "a",
-         .help = "Of the box, in particle diameters; particles that no longer fit are removed",
+         .help = scene.species.empty()
+                     ? "Of the box, in particle diameters; particles that no longer fit are removed"
+                     : "Of the box, in units of length. The gas starts again",
          .low = 4.0,
          .high = longest,
          .format = "%.1f"},

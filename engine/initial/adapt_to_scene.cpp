@@ -10,7 +10,7 @@ namespace clatter {
 
 template <int D>
 State<D> adapt_to_scene(const State<D>& state, const Scene& scene, std::uint64_t seed) {
-  // The particles of another mixture have other sizes.
+  // RandomInsertion places particles of one diameter only.
   if (!scene.species.empty() || !state.grains.empty()) return start_state<D>(scene, seed);
   const Vec<D> corner = scene.clear_corner();
   const auto count = static_cast<std::size_t>(scene.particles.count);

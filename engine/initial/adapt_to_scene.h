@@ -9,7 +9,7 @@ namespace clatter {
 /// Makes a start state for `scene` from the state of another scene. Particles keep their positions,
 /// velocities and spins, as many as the scene has and its box has room for. Further particles get
 /// random positions, Gaussian velocities of the same temperature, and no spin. Without room for
-/// them the result is start_state().
+/// them, and for mixtures, the result is start_state().
 template <int D>
 State<D> adapt_to_scene(const State<D>& state, const Scene& scene, std::uint64_t seed);
 

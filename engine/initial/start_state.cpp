@@ -57,8 +57,9 @@ static std::vector<Spin<D>> gaussian_spins(std::size_t count, double temperature
 template <int D>
 static std::vector<Spin<D>> gaussian_spins(const std::vector<Grain>& grains, double temperature,
                                            std::uint64_t seed, const StopRequest& stop) {
-  constexpr double kQuarter = 4.0;  // the moment of inertia of q = 4 is 1
-  std::vector<Spin<D>> spins = gaussian_spins<D>(grains.size(), temperature, kQuarter, seed, stop);
+  constexpr double kUnitInertia = 4.0;  // q = 4I/(m a^2) of I = 1, m = 1 and a = 1
+  std::vector<Spin<D>> spins =
+      gaussian_spins<D>(grains.size(), temperature, kUnitInertia, seed, stop);
   for (std::size_t i = 0; i < spins.size(); ++i) {
     spins[i] /= std::sqrt(grains[i].moment_of_inertia());
   }

@@ -24,7 +24,7 @@ void SpeciesTotals<D>::start_window() {
   }
 }
 
-// Evaluates the sums over the particles anew, now. The integrals remain.
+// Computes the sums over the particles at the present time. The time integrals do not change.
 template <int D>
 void SpeciesTotals<D>::take_stock() {
   const double now = simulation_.base_time();

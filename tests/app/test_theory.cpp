@@ -282,7 +282,7 @@ TEST_CASE("Theory: species that stay smooth have no spin temperature") {
   CHECK(spins_of("spin_temperature") == std::vector{false, true});
 }
 
-TEST_CASE("Theory: mixtures have none of the theory of particles that are alike") {
+TEST_CASE("Theory: a result of a mixture lacks the keys of the theory of equal particles") {
   Scene scene = mixture_of(0.9);
   CHECK(haff_rate(scene) == std::nullopt);
   CHECK(cools_freely(scene));
