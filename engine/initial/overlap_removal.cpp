@@ -9,14 +9,17 @@
 
 namespace clatter {
 
+// A few small particles in a large box need no cells as small as they are.
 template <int D>
-OverlapRemoval<D>::Grid::Grid(const Vec<D>& box, double diameter) {
+OverlapRemoval<D>::Grid::Grid(const Vec<D>& box, double diameter, std::size_t particles) {
+  const double allowed = std::max(65536.0, 4.0 * static_cast<double>(particles));
+  double most = 1.0;  // cells along an axis
+  while ((most + 1.0) * (most + 1.0) * (D == 2 ? 1.0 : most + 1.0) <= allowed) most += 1.0;
   std::size_t cells = 1;
   for (int axis = 0; axis < D; ++axis) {
-    constexpr double kWider = 1.01;        // than the diameter
-    constexpr double kMostCells = 1024.0;  // along an axis
+    constexpr double kWider = 1.01;  // than the diameter
     const double fit = std::floor(box[axis] / (kWider * diameter));
-    counts[axis] = static_cast<int>(std::clamp(fit, 1.0, kMostCells / (D == 2 ? 1.0 : 8.0)));
+    counts[axis] = static_cast<int>(std::clamp(fit, 1.0, most));
     widths[axis] = box[axis] / counts[axis];
     cells *= static_cast<std::size_t>(counts[axis]);
   }
@@ -39,7 +42,7 @@ OverlapRemoval<D>::OverlapRemoval(const Domain<D>& domain, std::vector<double> r
   double smallest = largest;
   for (const double radius : radii_) smallest = std::min(smallest, radius);
   for (double radius = largest; grids_.empty() || radius >= smallest; radius *= 0.5) {
-    grids_.emplace_back(domain.box, 2.0 * radius);
+    grids_.emplace_back(domain.box, 2.0 * radius, radii_.size());
   }
   for (std::uint32_t i = 0; i < radii_.size(); ++i) {
     std::uint8_t level = 0;

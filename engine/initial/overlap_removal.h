@@ -41,7 +41,7 @@ class OverlapRemoval {
     std::vector<std::uint32_t> first;    ///< [cells + 1] places in order
     std::vector<std::uint32_t> order;    ///< the members, by cell
 
-    Grid(const Vec<D>& box, double diameter);
+    Grid(const Vec<D>& box, double diameter, std::size_t particles);
     std::uint32_t index_of(const IntVec<D>& cell) const;
   };
 
