@@ -30,7 +30,7 @@ std::vector<const char*> components_of(Field field) {
 }
 
 // The index of a component in this order.
-std::size_t place_of(Field field) {
+std::size_t index_of(Field field) {
   if (joint_name_of(field) == name_of(field)) return 0;
   std::string axes = axes_of(field);
   std::ranges::transform(axes, axes.begin(), [](char axis) { return std::toupper(axis); });
@@ -65,7 +65,7 @@ void append_values(std::string& data, const DataArray& array) {
   const std::size_t cells = array.components.front()->values.size();
   std::vector<double> values(cells * stride);
   for (const FieldMap* component : array.components) {
-    const std::size_t place = place_of(component->field);
+    const std::size_t place = index_of(component->field);
     for (std::size_t i = 0; i < cells; ++i) values[i * stride + place] = component->values[i];
   }
   const std::uint64_t bytes = values.size() * sizeof(double);

@@ -16,7 +16,7 @@ struct KeyName {
 };
 
 // The keys of text fields.
-constexpr KeyName kKeys[] = {{ImGuiKey_Tab, GLFW_KEY_TAB},
+constexpr KeyName kKeyNames[] = {{ImGuiKey_Tab, GLFW_KEY_TAB},
                              {ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
                              {ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
                              {ImGuiKey_UpArrow, GLFW_KEY_UP},
@@ -42,7 +42,7 @@ constexpr KeyName kKeys[] = {{ImGuiKey_Tab, GLFW_KEY_TAB},
 #if IMGUI_VERSION_NUM < 18700
 
 void prepare_keys() {
-  for (const auto& [own, key] : kKeys) ImGui::GetIO().KeyMap[own] = key;
+  for (const auto& [own, key] : kKeyNames) ImGui::GetIO().KeyMap[own] = key;
 }
 
 void pass_key(int key, bool down) {
@@ -69,7 +69,7 @@ void begin_picture(const std::vector<KeyPress>& presses) {
 void prepare_keys() {}
 
 void pass_key(int key, bool down) {
-  for (const KeyName& name : kKeys) {
+  for (const KeyName& name : kKeyNames) {
     if (name.key == key) ImGui::GetIO().AddKeyEvent(name.own, down);
   }
 }

@@ -139,7 +139,7 @@ struct KeyLine {
   bool spheres_only = false;
 };
 
-constexpr std::array<KeyLine, 34> kKeys = {{
+constexpr std::array<KeyLine, 34> kKeyLines = {{
     {"Space", "play or pause"},
     {"B", "play backwards, or forwards again"},
     {".  ,", "next frame, previous frame"},
@@ -182,7 +182,7 @@ void help_window(int dimension, float width, float height) {
   begin_note("help", ImVec2(0.5f * width, 0.5f * height), ImVec2(0.5f, 0.5f));
   // The large letters of lecture mode shrink where the list would be higher than the window.
   ImGui::SetWindowFontScale(1.0f);
-  const float lines = static_cast<float>(kKeys.size()) + 3.0f;
+  const float lines = static_cast<float>(kKeyLines.size()) + 3.0f;
   const float needed = lines * ImGui::GetTextLineHeightWithSpacing();
   const float scale = std::min(1.0f, height / needed);
   const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;
@@ -191,7 +191,7 @@ void help_window(int dimension, float width, float height) {
   const float unit = ImGui::GetFontSize();
   ImGui::TextUnformatted("Keys and mouse");
   ImGui::Spacing();
-  for (const auto& [key, effect, spheres_only] : kKeys) {
+  for (const auto& [key, effect, spheres_only] : kKeyLines) {
     if (spheres_only && dimension == 2) continue;
     ImGui::TextUnformatted(key);
     ImGui::SameLine(13.0f * unit);

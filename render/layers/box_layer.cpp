@@ -13,7 +13,7 @@ namespace clatter {
 namespace {
 
 // Positions of the sides of the box at the time of the snapshot: the faces of the walls.
-std::array<Vec3, 2> corners_of(const Snapshot& snapshot) {
+std::array<Vec3, 2> box_corners(const Snapshot& snapshot) {
   Vec3 low = Vec3::Zero(), high = snapshot.box;
   for (int axis = 0; axis < 3; ++axis) {
     low[axis] += snapshot.wall_displacement[2 * axis];
@@ -23,7 +23,7 @@ std::array<Vec3, 2> corners_of(const Snapshot& snapshot) {
 }
 
 Rectangle3 side_of(const Snapshot& snapshot, int side) {
-  const auto [low, high] = corners_of(snapshot);
+  const auto [low, high] = box_corners(snapshot);
   const int axis = side / 2;
   const auto [first, second] = others_of(axis);
   return {axis, (side % 2 ? high : low)[axis], Vec2(low[first], low[second]),

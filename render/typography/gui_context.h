@@ -22,12 +22,12 @@ class CurrentContext {
 };
 
 /// Deleter of a context.
-struct DestroyContext {
+struct DestroyGuiContext {
   void operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
 };
 
 /// Owner of a context.
-using GuiContext = std::unique_ptr<ImGuiContext, DestroyContext>;
+using GuiContext = std::unique_ptr<ImGuiContext, DestroyGuiContext>;
 
 /// Creates a context that writes no settings file and supports meshes of any size.
 inline GuiContext make_gui_context() {

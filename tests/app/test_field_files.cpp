@@ -19,7 +19,7 @@ namespace {
 
 // Vectors, tensors, scalars and spin fields, on cells with unequal edges. In this short time some
 // cells are never visited.
-const std::string kMeasure =
+const std::string kMeasureFields =
     "clatter measure vibrated --quiet --set measure.burn_in=20 --until 22 "
     "--set measure.cells=[40,20] --set particles.friction=inf --set view.overlay=false "
     "--set 'measure.fields=[\"density\",\"velocity\",\"temperature\",\"stress\","
@@ -54,7 +54,8 @@ TEST_CASE("Field files: a series of maps replaces a longer one, and leaves the f
 // Maps, series and profiles are compared in test_result_maps.cpp.
 TEST_CASE("Field files: h5py reads the whole result, and the scene as attributes") {
   const Shell shell;
-  REQUIRE(shell.run(kMeasure + "--seed 9223372036854775809 --out r.json --hdf5 r.h5").code == 0);
+  REQUIRE(shell.run(kMeasureFields + "--seed 9223372036854775809 --out r.json --hdf5 r.h5").code ==
+          0);
   const json result = json::parse(shell.read("r.json"));
   const json file = read_by(shell, "read_hdf5.py", "r.h5");
   for (const auto& [key, value] : result.items()) {
@@ -68,7 +69,7 @@ TEST_CASE("Field files: h5py reads the whole result, and the scene as attributes
 
 TEST_CASE("Field files: VTK reads vectors and tensors of disks with zeros along z") {
   const Shell shell;
-  REQUIRE(shell.run(kMeasure + "--out r.json --vtk maps").code == 0);
+  REQUIRE(shell.run(kMeasureFields + "--out r.json --vtk maps").code == 0);
   const json arrays = read_by(shell, "read_vtk.py", "maps/fields.vti").at("arrays");
   const std::vector<double> zeros(kColumns * kRows);
   for (const char* name : {"velocity", "heat_flux", "stress", "stress_collisional"}) {
@@ -85,7 +86,7 @@ TEST_CASE("Field files: residuals have maps of numbers in all files, and no seri
     CAPTURE(alone);
     const std::string fields = alone ? "\"balance\"" : "\"balance\",\"velocity\"";
     REQUIRE(shell
-                .run("rm -rf maps && " + kMeasure +
+                .run("rm -rf maps && " + kMeasureFields +
                      "--out r.json --csv tables --vtk maps --hdf5 r.h5 --set 'measure.fields=[" +
                      fields + "]'")
                 .code == 0);

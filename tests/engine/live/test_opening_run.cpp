@@ -6,7 +6,7 @@
 
 using namespace clatter;
 
-static const char* const kScenes[] = {
+static const char* const kOpenedScenes[] = {
     R"(
 title = "Shaken, rough, under gravity"
 box.size = [30.0, 40.0]
@@ -35,7 +35,7 @@ static std::uint64_t hash_at(WatchedRun& run, double time) {
 }
 
 TEST_CASE("OpeningRun: pauses do not change the run") {
-  for (const char* text : kScenes) {
+  for (const char* text : kOpenedScenes) {
     const Scene scene = parse_scene(text, "pauses.toml");
     CAPTURE(scene.title);
     OpeningRun opening(scene, 3);
@@ -51,7 +51,7 @@ TEST_CASE("OpeningRun: pauses do not change the run") {
 }
 
 TEST_CASE("OpeningRun: an impossible start is an error after pauses too") {
-  Scene scene = parse_scene(kScenes[1], "overlap.toml");
+  Scene scene = parse_scene(kOpenedScenes[1], "overlap.toml");
   State<2> state;
   for (int i = 0; i < 100; ++i) {
     state.positions.push_back({1.0 + i % 10 * 1.9, 1.0 + i / 10 * 1.9});
