@@ -5,5 +5,7 @@
 #define END(name) .L##name##_end: ; .size name, .L##name##_end - name
 #else
 #define DATA(name) .section .rodata; .global name; .balign 4; name:
-#define END(name) .L##name##_end: ; .section .note.GNU-stack,"",@progbits
+#define END(name) .L##name##_end:
+// The stack needs no permission to execute.
+.section .note.GNU-stack,"",@progbits
 #endif

@@ -100,7 +100,7 @@ TEST_CASE("Accuracy tables: JSON and CSV have each number under its own name") {
     const std::vector<std::string> cells = words_of(lines[dial + 1], ',');
     REQUIRE(cells.size() == names.size());
     for (std::size_t k = 0; k < names.size(); ++k) row[names[k]] = cells[k];
-    CHECK(row["dial"] == expected["dials"][dial]["dial"]);
+    CHECK(row["dial"] == expected["dials"][dial]["dial"].get<std::string>());
     json columns = expected["dials"][dial]["settings"][0];
     CHECK(row["setting"] == columns["setting"]);
     CHECK(row["dominated"] == (columns["dominated"] ? "1" : "0"));
