@@ -114,17 +114,22 @@ void draw_curve(ImDrawList& list, const PlotFrame& frame, const Curve& curve, fl
     }
   }
   if (!curve.dashed) return stroke();
-  // Each segment starts with a dash. This suffices for the smooth curves of the theory.
+  // Dashes continue from segment to segment.
   const float dash = 0.4f * unit;
+  float start = 0.0f;  // of the next dash, from the beginning of the segment
   for (std::size_t i = 1; i < run.size(); ++i) {
     const ImVec2 a = run[i - 1], b = run[i];
     const float length = std::hypot(b.x - a.x, b.y - a.y);
-    for (float s = 0.0f; s < length; s += 2.0f * dash) {
-      const float e = std::min(s + dash, length);
+    float place = start;
+    for (; place < length; place += 2.0f * dash) {
+      const float s = std::max(place, 0.0f), e = std::min(place + dash, length);
+      if (!(s < e)) continue;
       list.AddLine(ImVec2(a.x + (b.x - a.x) * s / length, a.y + (b.y - a.y) * s / length),
                    ImVec2(a.x + (b.x - a.x) * e / length, a.y + (b.y - a.y) * e / length), ink,
                    width);
     }
+    start = place - length;
+    if (start > dash) start -= 2.0f * dash;  // the last dash goes on
   }
 }
 
