@@ -97,7 +97,7 @@ class Trial {
           &measure.wall_power.interval, &measure.plane_current.interval,
           &measure.local_density.interval, &measure.spin_distribution.interval,
           &measure.probe.interval, &measure.collision_counts.interval,
-          &measure.radial_distribution_profile.interval}) {
+          &measure.radial_distribution_profile.interval, &measure.mixing.interval}) {
       *each = interval;
     }
     for (TimeCorrelationSettings* settings :
@@ -162,7 +162,16 @@ void close_box(Scene& scene) {
   add_walls(scene, kBottom, {});
 }
 
-// A feature that an observable adds, with the walls or spins that it needs.
+// Two species that differ in name only.
+void split_species(Scene& scene) {
+  scene.species.resize(2);
+  scene.species[0].name = "one";
+  scene.species[1].name = "other";
+  scene.species[0].count = scene.particles.count / 2;
+  scene.species[1].count = scene.particles.count - scene.species[0].count;
+}
+
+// A feature that an observable adds, with the walls, spins or species that it needs.
 Feature with_observable(std::string_view name, ObservableKind kind) {
   Feature feature{.name = std::string(name), .add = [](Scene&) {}, .observable = kind};
   if (kind == ObservableKind::WallHits || kind == ObservableKind::WallPower) {
@@ -171,6 +180,9 @@ Feature with_observable(std::string_view name, ObservableKind kind) {
   } else if (kind == ObservableKind::SpinDistribution) {
     feature.name += ", rough";
     feature.add = make_rough;
+  } else if (kind == ObservableKind::Mixing) {
+    feature.name += ", two species";
+    feature.add = split_species;
   }
   return feature;
 }

@@ -57,7 +57,7 @@ struct ObservablePrice {
   ObservableKind kind;
   double surcharge;
 };
-constexpr std::array<ObservablePrice, 17> kObservablePrices = {
+constexpr std::array<ObservablePrice, 18> kObservablePrices = {
     {{ObservableKind::RadialDistribution, 0.28},
      {ObservableKind::VelocityDistribution, 0.07},
      {ObservableKind::FreeFlights, 0.12},
@@ -74,7 +74,8 @@ constexpr std::array<ObservablePrice, 17> kObservablePrices = {
      {ObservableKind::SpinDistribution, 0.19},
      {ObservableKind::Probe, 0.09},
      {ObservableKind::CollisionCounts, 0.22},
-     {ObservableKind::RadialDistributionProfile, 0.74}}};
+     {ObservableKind::RadialDistributionProfile, 0.74},
+     {ObservableKind::Mixing, 0.06}}};
 
 FeatureCost observables_of(const Scene& scene) {
   const Measure& measure = scene.measure;

@@ -1,7 +1,5 @@
 #include "engine/observables/local_density.h"
 
-#include <algorithm>
-
 #include "engine/observables/count_bins.h"
 #include "engine/observables/histogram.h"
 
@@ -20,14 +18,9 @@ struct DensitySums {
 
 }  // namespace
 
-// The cells have at least the edge length of the settings.
 template <int D>
-LocalDensity<D>::LocalDensity(const Simulation<D>& simulation, const LocalDensitySettings& settings)
-    : simulation_(simulation) {
-  for (int axis = 0; axis < D; ++axis) {
-    cells_[axis] = static_cast<int>(settings.cells_along(simulation.model().box[axis]));
-  }
-}
+LocalDensity<D>::LocalDensity(const Simulation<D>& simulation, const CellSettings& settings)
+    : simulation_(simulation), cells_(simulation.model().box, settings) {}
 
 template <int D>
 std::size_t LocalDensity<D>::size() const {
@@ -41,22 +34,12 @@ std::size_t LocalDensity<D>::mean_size() const {
 
 template <int D>
 void LocalDensity<D>::sample() {
-  const Vec<D>& box = simulation_.model().box;
-  std::size_t cells = 1;
-  for (const int count : cells_) cells *= static_cast<std::size_t>(count);
-  numbers_.assign(cells, 0);
+  numbers_.assign(cells_.size(), 0);
   for (const Vec<D>& position : simulation_.positions()) {
-    std::size_t cell = 0;
-    for (int axis = 0; axis < D; ++axis) {
-      // Rounding may put a position at the upper edge of the box, or a centre beyond a moving wall.
-      const double place = position[axis] / box[axis] * cells_[axis];
-      const auto index = static_cast<std::size_t>(std::clamp(place, 0.0, cells_[axis] - 1.0));
-      cell = cell * static_cast<std::size_t>(cells_[axis]) + index;
-    }
-    ++numbers_[cell];
+    ++numbers_[cells_.of(position, simulation_.model().box)];
   }
   std::vector<double>& sums = sums_.values;
-  sums[DensitySums::kCount] += static_cast<double>(cells);
+  sums[DensitySums::kCount] += static_cast<double>(numbers_.size());
   for (const std::uint32_t number : numbers_) {
     sums[DensitySums::kNumber] += number;
     sums[DensitySums::kSquare] += static_cast<double>(number) * number;

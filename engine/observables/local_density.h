@@ -1,8 +1,8 @@
 #pragma once
 
 #include "engine/dynamics/simulation.h"
+#include "engine/observables/counted_cells.h"
 #include "engine/observables/observable.h"
-#include "engine/scene/observable_settings.h"
 
 namespace clatter {
 
@@ -11,7 +11,7 @@ namespace clatter {
 template <int D>
 class LocalDensity final : public Observable {
  public:
-  LocalDensity(const Simulation<D>& simulation, const LocalDensitySettings& settings);
+  LocalDensity(const Simulation<D>& simulation, const CellSettings& settings);
 
   std::size_t size() const override;
   std::size_t mean_size() const override;
@@ -20,7 +20,7 @@ class LocalDensity final : public Observable {
 
  private:
   const Simulation<D>& simulation_;
-  IntVec<D> cells_;                     // along each axis
+  CountedCells cells_;
   std::vector<std::uint32_t> numbers_;  // [cells] of a sample
 };
 

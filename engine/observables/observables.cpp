@@ -13,6 +13,7 @@
 #include "engine/observables/radial_distribution.h"
 #include "engine/observables/radial_distribution_profile.h"
 #include "engine/observables/signed_bins.h"
+#include "engine/observables/species_mixing.h"
 #include "engine/observables/species_radial_distribution.h"
 #include "engine/observables/spin_distribution.h"
 #include "engine/observables/structure_factor.h"
@@ -86,6 +87,8 @@ static std::unique_ptr<Observable> make_observable(ObservableKind kind, Simulati
     case ObservableKind::RadialDistributionProfile:
       return std::make_unique<RadialDistributionProfile<D>>(simulation,
                                                             measure.radial_distribution_profile);
+    case ObservableKind::Mixing:
+      return std::make_unique<SpeciesMixing<D>>(simulation, measure.mixing);
   }
   return nullptr;
 }
@@ -188,6 +191,7 @@ std::vector<std::string> observable_tables() {
                                     "plane_current.number",
                                     "local_density.number",
                                     "probe.series",
+                                    "mixing.series",
                                     "spin_distribution.components",
                                     "spin_distribution.cosine"};
   for (const char* side : kSideNames) {
@@ -283,6 +287,11 @@ double observables_memory(const Scene& scene) {
         bytes += sums(profile.slabs * (profile.bins + 1.0) + 1.0, 0.0) + sample;
         break;
       }
+      case ObservableKind::Mixing:
+        bytes += sums(5.0, 5.0) + sample +
+                 sizeof(std::uint32_t) * measure.mixing.number_of_cells(scene.box) *
+                     static_cast<double>(scene.species.size());
+        break;
     }
   }
   return bytes;

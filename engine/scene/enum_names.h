@@ -99,7 +99,7 @@ inline constexpr std::array<Named<Estimator>, 2> kEstimators = {
 inline constexpr std::array<Named<Kernel>, 2> kKernels = {
     {{"box", Kernel::Box}, {"gaussian", Kernel::Gaussian}}};
 
-inline constexpr std::array<Named<ObservableKind>, 17> kObservables = {
+inline constexpr std::array<Named<ObservableKind>, 18> kObservables = {
     {{"radial_distribution", ObservableKind::RadialDistribution},
      {"velocity_distribution", ObservableKind::VelocityDistribution},
      {"free_flights", ObservableKind::FreeFlights},
@@ -116,7 +116,8 @@ inline constexpr std::array<Named<ObservableKind>, 17> kObservables = {
      {"spin_distribution", ObservableKind::SpinDistribution},
      {"probe", ObservableKind::Probe},
      {"collision_counts", ObservableKind::CollisionCounts},
-     {"radial_distribution_profile", ObservableKind::RadialDistributionProfile}}};
+     {"radial_distribution_profile", ObservableKind::RadialDistributionProfile},
+     {"mixing", ObservableKind::Mixing}}};
 
 inline constexpr std::array<Named<Spread>, 3> kSpreads = {{{"uniform", Spread::Uniform},
                                                            {"gaussian", Spread::Gaussian},

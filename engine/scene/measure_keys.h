@@ -78,6 +78,12 @@ inline constexpr auto kLocalDensityKeys =
     key_table("measure", {{"interval", "t", "Time between samples."},
                           {"cell", "a", "Shortest edge of the cells, which fill the box."}});
 
+inline constexpr auto kMixingKeys =
+    key_table("measure", {{"interval", "t", "Time between samples."},
+                          {"cell", "a",
+                           "Shortest edge of the cells, which fill the box. A cell needs several "
+                           "particles."}});
+
 inline constexpr auto kProbeKeys = key_table(
     "measure", {{"interval", "t", "Time between samples."},
                 {"lower", "a",
@@ -213,6 +219,11 @@ void visit_observables(Visitor& io, Measure& measure) {
     io.value(kRadialProfileKeys.at("bins"), settings.bins, between(2, 1000), presence);
     io.choice(kRadialProfileKeys.at("axis"), settings.axis, kAxes, presence);
     io.value(kRadialProfileKeys.at("slabs"), settings.slabs, between(1, 200), presence);
+  });
+  io.table("mixing", [&](auto& io) {
+    const Presence presence = presence_of(ObservableKind::Mixing);
+    io.value(kMixingKeys.at("interval"), measure.mixing.interval, above(0.0), presence);
+    io.value(kMixingKeys.at("cell"), measure.mixing.cell, above(0.0), presence);
   });
 }
 

@@ -27,7 +27,8 @@ enum class ObservableKind : std::uint8_t {
   SpinDistribution,          ///< of the components, and angles between spin and velocity
   Probe,                     ///< density, temperature and velocity in a region over time
   CollisionCounts,           ///< of each particle and of pairs in intervals
-  RadialDistributionProfile  ///< g(r) in slabs along an axis
+  RadialDistributionProfile,  ///< g(r) in slabs along an axis
+  Mixing                      ///< how well the species of a mixture are mixed
 };
 
 /// Settings of g(r).
@@ -118,8 +119,8 @@ struct RadialProfileSettings {
   int slabs = 10;         ///< number of equal slabs of the region of centres
 };
 
-/// Settings of the number of particles in cells.
-struct LocalDensitySettings {
+/// Settings of the numbers of particles in cells.
+struct CellSettings {
   double interval = 1.0;  ///< time between samples, > 0
   double cell = 3.0;      ///< shortest edge of the cells, > 0
 

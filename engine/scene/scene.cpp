@@ -126,6 +126,8 @@ std::optional<double> Measure::sampling_interval(ObservableKind kind) const {
       return collision_counts.interval;
     case ObservableKind::RadialDistributionProfile:
       return radial_distribution_profile.interval;
+    case ObservableKind::Mixing:
+      return mixing.interval;
     case ObservableKind::FreeFlights:
     case ObservableKind::Collisions:
     case ObservableKind::WallHits:

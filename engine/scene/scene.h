@@ -68,11 +68,12 @@ struct Measure {
   BondOrderSettings bond_order = {};
   WallPowerSettings wall_power = {};
   PlaneCurrentSettings plane_current = {};
-  LocalDensitySettings local_density = {};
+  CellSettings local_density = {};
   DistributionSettings spin_distribution = {};
   ProbeSettings probe = {};
   CollisionCountSettings collision_counts = {};
   RadialProfileSettings radial_distribution_profile = {};
+  CellSettings mixing = {};
 
   /// Whether an observable is requested.
   bool observes(ObservableKind kind) const {

@@ -269,18 +269,25 @@ static void check_observables(const Scene& scene, const toml::table& root,
     throw UserError(place_of(root, "measure.observables", file), "\"bond_order\" is for disks only",
                     "remove it");
   }
+  if (measure.observes(ObservableKind::Mixing) && scene.species.size() < 2) {
+    throw UserError(place_of(root, "measure.observables", file),
+                    "\"mixing\" is for mixtures, and the scene has no two species",
+                    "remove it, or give the scene two [[species]]");
+  }
   if (measure.observes(ObservableKind::StructureFactor)) check_wave_vectors(scene, root, file);
   check_region(scene, measure.velocity_distribution.region, "measure.velocity_distribution", 0.0,
                1.0, root, file);
   check_region(scene, measure.probe.region, "measure.probe", 0.25, 0.75, root, file);
   constexpr double kMostCells = 1e7;
-  const LocalDensitySettings& density = measure.local_density;
-  if (measure.observes(ObservableKind::LocalDensity) &&
-      density.number_of_cells(scene.box) > kMostCells) {
-    throw UserError(place_of(root, "measure.local_density.cell", file),
-                    "the box has more than 1e7 cells of " + number_text(density.cell),
+  const auto check_cells = [&](ObservableKind kind, const CellSettings& settings,
+                               const std::string& table) {
+    if (!measure.observes(kind) || settings.number_of_cells(scene.box) <= kMostCells) return;
+    throw UserError(place_of(root, "measure." + table + ".cell", file),
+                    "the box has more than 1e7 cells of " + number_text(settings.cell),
                     "choose larger cells");
-  }
+  };
+  check_cells(ObservableKind::LocalDensity, measure.local_density, "local_density");
+  check_cells(ObservableKind::Mixing, measure.mixing, "mixing");
 }
 
 /// Throws unless the times of a list increase.

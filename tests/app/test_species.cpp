@@ -112,6 +112,23 @@ TEST_CASE("Species: profiles and tables have the fields of each species") {
   CHECK(shell.read("tables/maps.csv").find("density_small") != std::string::npos);
 }
 
+TEST_CASE("Species: mixing has a series and means, which a table repeats") {
+  const Shell shell;
+  const json mixing =
+      mix_result(shell, "--csv tables --set 'measure.observables=[\"mixing\"]'").at("mixing");
+  const json& series = mixing.at("series");
+  CHECK(series.at("time").size() == series.at("lacey").size());
+  double mean = 0.0;
+  for (const double lacey : series.at("lacey")) {
+    mean += lacey / static_cast<double>(series.at("lacey").size());
+  }
+  CHECK(mean_in(mixing.at("lacey")) == doctest::Approx(mean).epsilon(0.02));
+  CHECK(mean_in(mixing.at("entropy")) > 0.0);
+  CHECK(mean_in(mixing.at("random_entropy")) < 1.0);
+  const std::string table = shell.read("tables/mixing_series.csv");
+  CHECK(table.find("time,lacey,entropy,random_entropy") != std::string::npos);
+}
+
 TEST_CASE("Species: replicas and goals name means by their species") {
   const Shell shell;
   const json all = mix_result(shell, "--replicas 2");

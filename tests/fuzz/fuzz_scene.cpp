@@ -176,7 +176,7 @@ void require_finite(const nlohmann::ordered_json& json, const std::string& name)
 }
 
 // Intervals between the samples of observables.
-std::array<double*, 14> intervals_of(Measure& measure) {
+std::array<double*, 15> intervals_of(Measure& measure) {
   return {&measure.radial_distribution.interval,
           &measure.velocity_distribution.interval,
           &measure.mean_squared_displacement.interval,
@@ -190,7 +190,8 @@ std::array<double*, 14> intervals_of(Measure& measure) {
           &measure.spin_distribution.interval,
           &measure.probe.interval,
           &measure.collision_counts.interval,
-          &measure.radial_distribution_profile.interval};
+          &measure.radial_distribution_profile.interval,
+          &measure.mixing.interval};
 }
 
 // Measures a scene without changes up to a time, and reads the result's text again.

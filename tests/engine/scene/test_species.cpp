@@ -80,6 +80,9 @@ frequency = 3.0
 interval = 0.1
 kick_speed = 0.05
 law = "energy"
+[measure]
+observables = ["mixing"]
+mixing = { interval = 0.75, cell = 2.5 }
 )";
 
 const std::string kPlain = R"(box.size = [10, 10]
@@ -192,6 +195,8 @@ TEST_CASE("Species: a scene is written and read back, also with new settings") {
   CHECK(again.species == scene.species);
   CHECK(again.pairs == scene.pairs);
   CHECK(again.species_walls == scene.species_walls);
+  CHECK(again.measure.mixing.interval == 0.75);
+  CHECK(again.measure.mixing.cell == 2.5);
   CHECK(scene_to_toml(again) == text);
   const Scene set = with_settings(
       scene, {{"pair.small.large-2.restitution", "0.5"}, {"pair.small.heavy.friction", "0.75"}});
@@ -254,6 +259,10 @@ TEST_CASE("Species: mistakes are reported with their place and a fix") {
            {with("[particles.start]\nlayout = \"lattice\"\n[[species]]\nname = \"c\"\ncount = 20\n"
                  "diameter = 2.0\n"),
             "10:1", "a lattice of the largest particles has"},
+           {"box.size = [9, 9]\nparticles.count = 3\nmeasure.observables = [\"mixing\"]\n", "3:9",
+            "has no two species"},
+           {with("[measure]\nobservables = [\"mixing\"]\nmixing.cell = 1e-3\n"), "11:8",
+            "more than 1e7 cells"},
            {with("[[change]]\ntime = 1\nset = { \"species.a.mass\" = 2 }\n"), "9:1",
             "would change the energy"},
            {with("[[change]]\ntime = 1\npuff = { count = 1, centre = [5, 5], radius = 1, species = "
