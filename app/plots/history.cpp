@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/observables/counted_cells.h"
+
 namespace clatter {
 
 void VelocityHistogram::add(const Snapshot& snapshot) {
@@ -38,6 +40,42 @@ std::vector<Vec2> VelocityHistogram::density(int axis) const {
   return points;
 }
 
+void SpeciesAverages::add(const Snapshot& snapshot, std::size_t species) {
+  squares_.resize(species);
+  freedoms_.resize(species);
+  for (std::size_t i = 0; i < snapshot.grains.size(); ++i) {
+    const Grain& grain = snapshot.grains[i];
+    const auto velocity = snapshot.velocities.col(static_cast<Eigen::Index>(i));
+    squares_[grain.species] += grain.mass * velocity.squaredNorm();
+    freedoms_[grain.species] += static_cast<double>(velocity.size());
+  }
+}
+
+std::vector<double> SpeciesAverages::take() {
+  std::vector<double> temperatures;
+  for (std::size_t s = 0; s < squares_.size(); ++s) {
+    temperatures.push_back(squares_[s] / freedoms_[s]);
+  }
+  clear();
+  return temperatures;
+}
+
+// The mixing in cells of about ten particles.
+static Mixing mixing_in(const Snapshot& snapshot, std::size_t species) {
+  constexpr double kParticles = 10.0;
+  const auto count = static_cast<double>(std::max<std::size_t>(snapshot.count(), 1));
+  const double volume = snapshot.box.prod() * kParticles / count;
+  const double edge = std::pow(volume, 1.0 / static_cast<double>(snapshot.box.size()));
+  const CountedCells cells(snapshot.box, {.cell = edge});
+  std::vector<std::uint32_t> numbers(cells.size() * species);
+  for (std::size_t i = 0; i < snapshot.grains.size(); ++i) {
+    const std::size_t cell =
+        cells.of(snapshot.positions.col(static_cast<Eigen::Index>(i)), snapshot.box);
+    ++numbers[cell * species + snapshot.grains[i].species];
+  }
+  return mixing_of(numbers, species);
+}
+
 void History::add(const Frame& frame) {
   if (frame.run != run_) {
     run_ = frame.run;
@@ -46,11 +84,14 @@ void History::add(const Frame& frame) {
     spacing_ = 0.0;
     samples_.clear();
     velocities_.clear();
+    species_.clear();
   }
   if (frame.futures != futures_) fork(frame);
   const double span = frame.tally.time - last_.time;
   if (frame.snapshot.time < frame.head || !(span > 0.0)) return;
   velocities_.add(frame.snapshot);
+  const std::size_t species = frame.scene->species.size();
+  if (species > 0) species_.add(frame.snapshot, species);
   constexpr double kRounding = 1e-9;  // frames of films are apart by the spacing
   if (span < (1.0 - kRounding) * spacing_) return;
   Sample sample;
@@ -65,6 +106,8 @@ void History::add(const Frame& frame) {
   sample.dissipated = (frame.tally.dissipated - last_.dissipated) / span;
   sample.ledger_residual = std::fabs(frame.ledger_residual);
   sample.deepest_overlap = frame.deepest_overlap;
+  sample.species_temperature = species_.take();
+  if (species > 0) sample.mixing = mixing_in(frame.snapshot, species);
   samples_.push_back(sample);
   last_ = frame.tally;
   // A shorter average would resolve single collisions.
@@ -76,6 +119,7 @@ void History::add(const Frame& frame) {
 void History::fork(const Frame& frame) {
   futures_ = frame.futures;
   last_ = frame.tally;
+  species_.clear();
   std::erase_if(samples_, [&](const Sample& sample) { return sample.time > frame.forked_at; });
 }
 
@@ -95,7 +139,13 @@ void History::thin_out() {
                        .gravity_in = mean(&Sample::gravity_in),
                        .dissipated = mean(&Sample::dissipated),
                        .ledger_residual = larger(&Sample::ledger_residual),
-                       .deepest_overlap = larger(&Sample::deepest_overlap)});
+                       .deepest_overlap = larger(&Sample::deepest_overlap),
+                       .species_temperature = b.species_temperature,
+                       .mixing = b.mixing});
+    for (std::size_t s = 0; s < b.species_temperature.size(); ++s) {
+      double& temperature = thinned.back().species_temperature[s];
+      temperature = 0.5 * (a.species_temperature[s] + temperature);
+    }
   }
   samples_ = std::move(thinned);
   spacing_ *= 2.0;

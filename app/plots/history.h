@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/live/frame.h"
+#include "engine/physics/mixing.h"
 
 namespace clatter {
 
@@ -19,15 +20,18 @@ struct Sample {
   double dissipated = 0.0;        ///< dissipated power
   double ledger_residual = 0.0;   ///< magnitude of Totals::ledger_residual()
   double deepest_overlap = 0.0;   ///< see RunChecks
+  std::vector<double> species_temperature = {};  ///< [S] NaN: no particles; empty: no mixture
+  Mixing mixing = {};  ///< at the end, in cells of about ten particles; undefined without a mixture
 };
 
 /// Visits all members, in order, for checkpoints.
 template <class Archive>
 void visit(Archive& io, Sample& sample) {
   auto& [time, temperature, spin_temperature, walls_in, bulk_in, nudges_in, gravity_in, dissipated,
-         ledger_residual, deepest_overlap] = sample;
+         ledger_residual, deepest_overlap, species_temperature, mixing] = sample;
   io(time, temperature, spin_temperature, walls_in, bulk_in, nudges_in, gravity_in, dissipated,
-     ledger_residual, deepest_overlap);
+     ledger_residual, deepest_overlap, species_temperature, mixing.lacey, mixing.entropy,
+     mixing.random_entropy);
 }
 
 /// Histogram of the velocities over the last seconds, with bins of equal width.
@@ -55,6 +59,27 @@ class VelocityHistogram {
   std::array<std::array<double, kClasses>, 3> weights_ = {};
 };
 
+/// Averages of the temperatures of the species of a mixture over frames.
+class SpeciesAverages {
+ public:
+  /// Removes all frames.
+  void clear() { *this = {}; }
+  /// Adds a frame of a mixture of this number of species.
+  void add(const Snapshot& snapshot, std::size_t species);
+  /// T_s since the last call, NaN without particles; empty: no mixture.
+  std::vector<double> take();
+
+  /// Visits all members, for checkpoints.
+  template <class Archive>
+  void visit(Archive& io) {
+    io(squares_, freedoms_);
+  }
+
+ private:
+  std::vector<double> squares_;   // [S] sum m v^2
+  std::vector<double> freedoms_;  // [S] number of velocity components
+};
+
 /// Time series for the plots. The number of samples is bounded: their spacing grows with the length
 /// of the run. A look into the past adds no samples.
 class History {
@@ -75,8 +100,8 @@ class History {
   /// Visits all members, for checkpoints.
   template <class Archive>
   void visit(Archive& io) {
-    auto& [run, futures, last, spacing, samples, velocities] = *this;
-    io(run, futures, last, spacing, samples, velocities);
+    auto& [run, futures, last, spacing, samples, velocities, species] = *this;
+    io(run, futures, last, spacing, samples, velocities, species);
   }
 
  private:
@@ -89,6 +114,7 @@ class History {
   double spacing_ = 0.0;  // smallest time between samples
   std::vector<Sample> samples_;
   VelocityHistogram velocities_;
+  SpeciesAverages species_;
 };
 
 }  // namespace clatter

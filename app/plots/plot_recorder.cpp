@@ -89,12 +89,18 @@ void PlotRecorder<D>::take_sample() {
   frame_.snapshot = snapshot_of(run_.simulation());
   frame_.head = frame_.snapshot.time;
   frame_.tally = tally_;
+  frame_.scene = scene();
   history_.add(frame_);
 }
 
 template <int D>
+std::shared_ptr<const Scene> PlotRecorder<D>::scene() const {
+  return frame_.scene ? frame_.scene : std::make_shared<const Scene>(run_.present_scene());
+}
+
+template <int D>
 PlottedGas PlotRecorder<D>::gas() {
-  if (!frame_.scene) frame_.scene = std::make_shared<const Scene>(run_.present_scene());
+  frame_.scene = scene();
   if (profile_) frame_.profile = profile_->profile();
   return {&history_, &frame_, ""};
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +44,7 @@ class PlotRecorder final : private Observer<D> {
   double next_time() const { return static_cast<double>(next_) * spacing_; }
   double profile_window() const { return run_.laws().view.window / kWindowParts; }
   std::string laws() const;
+  std::shared_ptr<const Scene> scene() const;
   void before_laws(const Model<D>& next) override;
   void on_laws() override;
   void begin_profile();

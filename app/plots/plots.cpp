@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
 
 #include "app/plots/plot_colours.h"
+#include "app/plots/species_plots.h"
 #include "app/results/theory_json.h"
 #include "engine/text.h"
 #include "render/label.h"
@@ -133,18 +135,28 @@ std::optional<Curve> atmosphere_curve(const Scene& scene, Axis along) {
   return curve;
 }
 
+// Whether a profile has values, and the field that is chosen is one of them.
+bool has_profile(const Profile& profile, std::size_t chosen) {
+  return !profile.fields.empty() && chosen < profiled_fields(profile.axis).size();
+}
+
 // A field along an axis, with its standard errors.
-LivePlot profile_plot(const Profile& profile, std::size_t chosen, const Scene& scene) {
+LivePlot profile_plot(const Profile& profile, std::size_t chosen, const Scene& scene,
+                      const ThemeColours& theme) {
   const int dimension = scene.dimension();
   const Label label = label_of(profile.fields[chosen], dimension);
   LivePlot plot{"Profile", along(profile.axis), false, false, {}, label.unit};
-  Curve curve{.name = label.name, .colour = kBlue, .points = {}, .compared = true};
+  // In a mixture the colours are those of species.
+  const Colour colour = scene.species.empty() ? kBlue : theme.text;
+  Curve curve{.name = label.name, .colour = colour, .points = {}, .compared = true};
   for (std::size_t i = 0; i < profile.values[chosen].size(); ++i) {
     const Estimate& value = profile.values[chosen][i];
     curve.points.emplace_back(0.5 * (profile.edges[i] + profile.edges[i + 1]), value.mean);
     curve.errors.push_back(value.standard_error);
   }
   plot.curves.push_back(std::move(curve));
+  std::ranges::move(species_profiles(profile, profile.fields[chosen], scene, theme),
+                    std::back_inserter(plot.curves));
   if (profile.fields[chosen] == Quantity::Density) {
     if (auto law = atmosphere_curve(scene, profile.axis)) plot.curves.push_back(std::move(*law));
   }
@@ -240,11 +252,15 @@ std::vector<LivePlot> plots_of(const History& history, const Frame& frame, std::
   const std::vector<Sample>& samples = history.samples();
   const int dimension = frame.scene->dimension();
   std::vector<LivePlot> plots;
-  if (frame.profile && profiled < frame.profile->fields.size()) {
-    plots.push_back(profile_plot(*frame.profile, profiled, *frame.scene));
+  if (frame.profile && has_profile(*frame.profile, profiled)) {
+    plots.push_back(profile_plot(*frame.profile, profiled, *frame.scene, theme));
   }
   if (frame.residuals) plots.push_back(balance_plot(*frame.residuals, dimension));
   plots.push_back(temperature_plot(samples, *frame.scene, theme.text));
+  if (!frame.scene->species.empty()) {
+    plots.push_back(species_temperature_plot(samples, *frame.scene, theme));
+    plots.push_back(mixing_plot(samples, theme.text));
+  }
   plots.push_back(energy_plot(samples, static_cast<double>(frame.snapshot.count()), theme.text));
   plots.push_back(velocity_plot(history.velocities(), dimension, theme.text));
   const auto gas = vibrated_gas(*frame.scene);
@@ -341,8 +357,8 @@ static std::optional<LivePlot> lecture_plot_of(LecturePlot which, const PlottedG
     case LecturePlot::Velocities:
       return velocity_plot(gas.history->velocities(), frame.scene->dimension(), theme.text);
     case LecturePlot::Profile:
-      if (!frame.profile || profiled >= frame.profile->fields.size()) break;
-      return profile_plot(*frame.profile, profiled, *frame.scene);
+      if (!frame.profile || !has_profile(*frame.profile, profiled)) break;
+      return profile_plot(*frame.profile, profiled, *frame.scene, theme);
   }
   return std::nullopt;
 }

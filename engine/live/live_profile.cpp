@@ -17,13 +17,30 @@ static IntVec<D> columns_in(const Simulation<D>& simulation, Axis axis) {
   return columns;
 }
 
+std::vector<Field> profiled_fields(Axis axis, std::size_t species) {
+  const auto common = profiled_fields(axis);
+  std::vector<Field> fields(common.begin(), common.end());
+  for (std::size_t s = 0; s < species; ++s) {
+    fields.push_back(Field(Quantity::Density).of(s));
+    fields.push_back(Field(Quantity::Temperature).of(s));
+  }
+  return fields;
+}
+
+// The fields of the profile of a run.
+template <int D>
+static std::vector<Field> fields_in(const Simulation<D>& simulation, Axis axis) {
+  const auto& species = simulation.model().species;
+  return profiled_fields(axis, species ? species->count() : 0);
+}
+
 template <int D>
 LiveProfile<D>::LiveProfile(Simulation<D>& simulation, double window, Axis axis)
     : axis_(axis),
+      fields_(fields_in(simulation, axis)),
       start_(simulation.time() + window),
       observer_(simulation, columns_in(simulation, axis),
-                moment_layout<D>(profiled_fields(axis), simulation.model().spins,
-                                 simulation.is_mixture())),
+                moment_layout<D>(fields_, simulation.model().spins, simulation.is_mixture())),
       observation_(simulation, observer_),
       timers_(simulation) {
   watch(window);
@@ -33,10 +50,10 @@ template <int D>
 LiveProfile<D>::LiveProfile(Simulation<D>& simulation, double window, Axis axis,
                             ArchiveReader& saved)
     : axis_(axis),
+      fields_(fields_in(simulation, axis)),
       start_(0.0),
       observer_(simulation, columns_in(simulation, axis),
-                moment_layout<D>(profiled_fields(axis), simulation.model().spins,
-                                 simulation.is_mixture())),
+                moment_layout<D>(fields_, simulation.model().spins, simulation.is_mixture())),
       observation_(simulation, observer_),
       timers_(simulation) {
   saved(*this);
@@ -56,8 +73,7 @@ void LiveProfile<D>::watch(double window) {
 template <int D>
 Profile LiveProfile<D>::profile() const {
   if (sums_.parts().size() < 2) return {};
-  return profile_of(sums_.parts(), observer_.grid(), observer_.layout(), profiled_fields(axis_),
-                    axis_);
+  return profile_of(sums_.parts(), observer_.grid(), observer_.layout(), fields_, axis_);
 }
 
 template <int D>

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "engine/checkpoint/archive.h"
 #include "engine/dynamics/simulation.h"
@@ -20,7 +21,11 @@ constexpr std::array<Field, 5> profiled_fields(Axis axis) {
           Field(Quantity::HeatFlux, k), Quantity::Dissipation};
 }
 
-/// Profiles along an axis of a running simulation, averaged since this observer was made.
+/// The same fields, and for each of this number of species its density and its temperature.
+std::vector<Field> profiled_fields(Axis axis, std::size_t species);
+
+/// Profiles of profiled_fields() along an axis of a running simulation, averaged since this observer
+/// was made.
 template <int D>
 class LiveProfile {
  public:
@@ -38,7 +43,7 @@ class LiveProfile {
   /// Visits the members that a checkpoint keeps.
   template <class Archive>
   void visit(Archive& io) {
-    auto& [axis, start, closed, observer, sums, observation, timers] = *this;
+    auto& [axis, fields, start, closed, observer, sums, observation, timers] = *this;
     io(start, closed, observer, sums);
   }
 
@@ -46,6 +51,7 @@ class LiveProfile {
   void watch(double window);
 
   Axis axis_;
+  std::vector<Field> fields_;
   double start_;              // simulation time at which the first window closes
   std::uint64_t closed_ = 0;  // windows closed since then
   CellIntegrals<D> observer_;
