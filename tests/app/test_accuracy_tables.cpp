@@ -102,7 +102,7 @@ TEST_CASE("Accuracy tables: JSON and CSV have each number under its own name") {
     for (std::size_t k = 0; k < names.size(); ++k) row[names[k]] = cells[k];
     CHECK(row["dial"] == expected["dials"][dial]["dial"].get<std::string>());
     json columns = expected["dials"][dial]["settings"][0];
-    CHECK(row["setting"] == columns["setting"]);
+    CHECK(row["setting"] == columns["setting"].get<std::string>());
     CHECK(row["dominated"] == (columns["dominated"] ? "1" : "0"));
     const json biases = columns.value("bias", json::object());
     for (const auto& [quantity, bias] : biases.items()) {
