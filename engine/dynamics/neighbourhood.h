@@ -15,9 +15,9 @@
 // Near particles are in lists (Neighbourhood). The list of a cell holds the particles of the cell
 // and of all neighbouring cells (CellGrid). A particle changes cells only when it is beyond the
 // border by an overhang, which is as wide as contacts allow. This hysteresis prevents repeated
-// crossings. Cells become finer in clusters. Spheres above a volume fraction of 0.43 have lists of
-// their own (NeighbourLists). These lists have half as many particles as those of 27 cells, and
-// dense spheres leave their regions rarely.
+// crossings. Cells become finer in clusters. Spheres above a volume fraction of 0.43, in a mixture
+// that of as many of its largest spheres, have lists of their own (NeighbourLists). These lists have
+// half as many particles as those of 27 cells, and dense spheres leave their regions rarely.
 
 namespace clatter {
 
@@ -189,15 +189,12 @@ class Neighbourhood {
       if (model.periodic(axis) && model.box[axis] < narrowest) return false;
     }
     if (D == 2) return false;
-    double volume = particles * std::pow(model.diameter, D);  // of the cubes about all
-    if (!grains.empty()) {
-      constexpr double kAlike = 2.0;  // ratio of the largest to the least diameter
-      volume = 0.0;
-      for (const Grain& grain : grains) {
-        if (kAlike * 2.0 * grain.radius < model.diameter) return false;
-        volume += std::pow(2.0 * grain.radius, D);
-      }
+    constexpr double kAlike = 2.0;  // ratio of the largest to the least diameter
+    for (const Grain& grain : grains) {
+      if (kAlike * 2.0 * grain.radius < model.diameter) return false;
     }
+    // Cells have the width of the largest particle, and so many particles as if all were so large.
+    const double volume = particles * std::pow(model.diameter, D);  // of the cubes about them
     return packing_fraction(D, volume / model.box.prod()) > kDense;
   }
   bool by_particle() const { return D == 3 && lists_.has_value(); }
