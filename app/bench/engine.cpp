@@ -9,6 +9,7 @@
 #include <locale>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <vector>
 
@@ -46,23 +47,25 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Measures the run that `make` returns. Equilibrates for a number of collisions per particle.
+// Measures the run that `make` returns. Equilibrates for a number of collisions per particle;
+// absent: the set-up alone is measured.
 template <class Make>
-EngineRate measure_run(int count, double fraction, std::uint64_t equilibration, const Make& make) {
+EngineRate measure_run(int count, double fraction, std::optional<std::uint64_t> equilibration,
+                       const Make& make) {
   constexpr int kRepetitions = 3;
   const auto particles = static_cast<std::uint64_t>(count);
   restart_peak_memory();
   const std::uint64_t memory_before = peak_memory_bytes();
   const double setup_began = cpu_seconds();
   const auto simulation = make();
-  EngineRate result{count, fraction, 0.0, cpu_seconds() - setup_began, 0.0};
-  simulation->run_until(kNever, equilibration * particles / 2);
+  EngineRate result{count, fraction, std::nan(""), cpu_seconds() - setup_began, 0.0};
+  if (equilibration) simulation->run_until(kNever, *equilibration * particles / 2);
   const std::uint64_t batch = std::max<std::uint64_t>(1'000'000, particles);
-  for (int k = 0; k < kRepetitions; ++k) {
+  for (int k = 0; equilibration && k < kRepetitions; ++k) {
     const double began = cpu_seconds();
     simulation->run_until(kNever, simulation->counts().pair_collisions + batch);
     const double rate = 1e-6 * static_cast<double>(batch) / (cpu_seconds() - began);
-    result.rate = std::max(result.rate, rate);
+    result.rate = std::fmax(result.rate, rate);
   }
   constexpr double kResolved = 4.0 * 1024.0 * 1024.0;
   const auto memory = static_cast<double>(peak_memory_bytes() - memory_before);
@@ -71,8 +74,9 @@ EngineRate measure_run(int count, double fraction, std::uint64_t equilibration, 
   return result;
 }
 
-// Elastic particles are in equilibrium after about ten collisions each.
-EngineRate measure_engine(const Scene& scene, std::uint64_t equilibration = 10) {
+constexpr std::uint64_t kEquilibration = 10;  // collisions of each elastic particle
+
+EngineRate measure_engine(const Scene& scene, std::optional<std::uint64_t> equilibration) {
   return with_dimension(scene.dimension(), [&](auto dimension) {
     return measure_run(scene.particles.count, scene.packing_fraction(), equilibration,
                        [&] { return simulation_of<dimension>(scene, 1); });
@@ -81,7 +85,8 @@ EngineRate measure_engine(const Scene& scene, std::uint64_t equilibration = 10) 
 
 // A mixture of elastic particles in a periodic square or cube.
 template <int D>
-EngineRate measure_mixture(const std::vector<BenchSpecies>& species, double fraction) {
+EngineRate measure_mixture(const std::vector<BenchSpecies>& species, double fraction,
+                           std::optional<std::uint64_t> equilibration) {
   std::vector<Grain> grains;
   Model<D> model;
   model.diameter = 0.0;
@@ -103,7 +108,7 @@ EngineRate measure_mixture(const std::vector<BenchSpecies>& species, double frac
       SpeciesLaws<D>{.pairs = std::vector<PairLaw>(species.size() * species.size()),
                      .walls = std::vector<std::array<std::optional<Wall>, 2 * D>>(species.size())};
   const int count = static_cast<int>(grains.size());
-  return measure_run(count, fraction, 10, [&] {
+  return measure_run(count, fraction, equilibration, [&] {
     State<D> state = mixture_state<D>(model, grains, 1.0, 1);
     if (state.positions.empty()) {
       throw UserError({"--species", 0, 0}, "these particles find no places at this fraction",
@@ -115,7 +120,8 @@ EngineRate measure_mixture(const std::vector<BenchSpecies>& species, double frac
 
 // Prints the rows of a table and returns them as JSON.
 Json print_rates(const std::vector<EngineCell>& cells, int dimension,
-                 const std::vector<BenchSpecies>& species, std::vector<EngineRate>& rates) {
+                 const std::vector<BenchSpecies>& species,
+                 std::optional<std::uint64_t> equilibration, std::vector<EngineRate>& rates) {
   const bool disks = dimension == 2;
   std::fprintf(stderr, "elastic %s, periodic box; Mcoll/s: 10^6 pair collisions per CPU second\n",
                disks ? "disks" : "spheres");
@@ -125,14 +131,16 @@ Json print_rates(const std::vector<EngineCell>& cells, int dimension,
   for (const auto& [count, fraction] : cells) {
     EngineRate r;
     if (species.empty()) {
-      r = measure_engine(elastic_gas(count, fraction, dimension));
+      r = measure_engine(elastic_gas(count, fraction, dimension), equilibration);
     } else {
-      r = with_dimension(dimension, [&](auto d) { return measure_mixture<d>(species, fraction); });
+      r = with_dimension(
+          dimension, [&](auto d) { return measure_mixture<d>(species, fraction, equilibration); });
     }
     r.fraction = fraction;  // the box differs by rounding
     rates.push_back(r);
     const double bytes = r.bytes_per_particle;
-    print(fmt::sprintf("%10d %6.3f %9.3f %9.3f %11s\n", r.count, r.fraction, r.rate,
+    print(fmt::sprintf("%10d %6.3f %9s %9.3f %11s\n", r.count, r.fraction,
+                       std::isnan(r.rate) ? "-" : fmt::format("{:.3f}", r.rate).c_str(),
                        r.setup_seconds,
                        std::isnan(bytes) ? "-" : fmt::format("{:.0f}", bytes).c_str()));
     json.push_back({{"count", r.count},
@@ -149,7 +157,7 @@ Json print_inhomogeneous(int count) {
   Json json = Json::array();
   for (const Inhomogeneous& gas : inhomogeneous_gases(count)) {
     const double homogeneous =
-        measure_engine(elastic_gas(count, gas.scene.packing_fraction())).rate;
+        measure_engine(elastic_gas(count, gas.scene.packing_fraction()), kEquilibration).rate;
     const EngineRate r = measure_engine(gas.scene, gas.after);
     print(fmt::sprintf("%-24s %10d %6.3f %9.3f %9.2f\n", gas.name, r.count, r.fraction, r.rate,
                        r.rate / homogeneous));
@@ -251,8 +259,9 @@ std::vector<EngineCell> engine_cells(const EngineTable& table) {
 
 int bench_engine(const std::string& json, const EngineTable& table) {
   std::vector<EngineRate> rates;
-  const Json rows = print_rates(engine_cells(table), table.volume_fraction ? 3 : table.dimension,
-                                table.species, rates);
+  const Json rows =
+      print_rates(engine_cells(table), table.volume_fraction ? 3 : table.dimension, table.species,
+                  table.start_only ? std::nullopt : std::optional(kEquilibration), rates);
   if (!json.empty()) write_file(json, rows.dump(1) + "\n");
   return kOk;
 }
@@ -273,7 +282,7 @@ std::vector<EngineCell> growth_cells(int count) {
 int bench_growth(const std::string& json, const std::string& plot, int count) {
   if (!plot.empty()) require_writable_file(plot, "--plot");
   std::vector<EngineRate> rates;
-  Json rows = print_rates(growth_cells(count), 2, {}, rates);
+  Json rows = print_rates(growth_cells(count), 2, {}, kEquilibration, rates);
   // A small gas cools into one cluster with hardly any collisions.
   for (Json& row : print_inhomogeneous(count > 0 ? std::clamp(count, 20'000, 100'000) : 100'000)) {
     rows.push_back(std::move(row));

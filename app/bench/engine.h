@@ -36,6 +36,7 @@ struct EngineTable {
   double area_fraction = 0.5;              ///< of disks, in the only cell
   std::optional<double> volume_fraction;   ///< of spheres, in the only cell; absent: disks
   std::vector<BenchSpecies> species = {};  ///< of a mixture, the only cell; empty: one species
+  bool start_only = false;                 ///< measures the set-up alone, and no rate
 };
 
 /// A row of the engine's table: the number of particles, and the fraction that they fill.
@@ -50,7 +51,8 @@ std::vector<EngineCell> growth_cells(int count);
 struct EngineRate {
   int count = 0;
   double fraction = 0.0;       ///< of the area or volume that particles fill
-  double rate = 0.0;           ///< millions of pair collisions per CPU second, best of three
+  double rate = 0.0;           ///< millions of pair collisions per CPU second, best of three; NaN
+                               ///< if the set-up alone was measured
   double setup_seconds = 0.0;  ///< CPU time to build the start state and the simulation
   /// Peak resident size minus the size before the state was built; NaN: too little for the heap of
   /// the process.

@@ -91,6 +91,8 @@ void add_engine_table(CLI::App& bench, int& exit_code) {
                        "table then has one cell.")
           ->type_name("COUNT:DIAMETER:MASS,...")
           ->excludes(count);
+  table->add_flag("--start-only", options->table.start_only,
+                  "Measure the set-up alone: start state, lists and first events.");
   table->callback([options, count, area, volume, species, &exit_code] {
     const bool fills = area->count() + volume->count() > 0;
     if (fills && count->count() + species->count() == 0) {

@@ -69,7 +69,8 @@ TEST_CASE("Bench: a mixture has one cell of the engine's table") {
   CHECK(rows[0]["count"] == 400);
   CHECK(rows[0]["area_fraction"] == 0.4);
   CHECK(rows[0]["million_collisions_per_cpu_second"] > 0.01);
-  for (const std::string wrong : {"300:1", "0:1:1", "1.5:1:1", "3:1:-1", "3:1:1:1", "3;1;1", "3:1:1,", ""}) {
+  for (const std::string wrong :
+       {"300:1", "0:1:1", "1.5:1:1", "3:1:-1", "3:1:1:1", "3;1;1", "3:1:1,", ""}) {
     CAPTURE(wrong);
     const Outcome refused = shell.run("clatter bench engine --species '" + wrong + "'");
     CHECK(refused.code == 2);
@@ -77,6 +78,19 @@ TEST_CASE("Bench: a mixture has one cell of the engine's table") {
   }
   CHECK(shell.run("clatter bench engine --species 100:1:1 --area-fraction 0.9").code == 2);
   CHECK(shell.run("clatter bench engine --area-fraction 0.3").code == 2);
+}
+
+TEST_CASE("Bench: the set-up alone has no rate") {
+  const Shell shell;
+  const Outcome outcome =
+      shell.run("clatter bench engine --species 20000:1:1,20:6:36 --start-only --json cell.json");
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const json rows = json::parse(shell.read("cell.json"));
+  CHECK(rows[0]["million_collisions_per_cpu_second"].is_null());
+  CHECK(rows[0]["setup_seconds"] > 1e-3);
+  CHECK(rows[0]["count"] == 20'020);
+  CHECK(outcome.out.find("-") != std::string::npos);
 }
 
 TEST_CASE("Bench: a cell of the table of cores has the gas as a whole and in tiles") {
