@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "engine/dynamics/clock.h"
-#include "engine/dynamics/near_particles.h"
 #include "engine/error.h"
+#include "engine/initial/free_room.h"
 #include "engine/laws/limits.h"
 #include "engine/laws/model.h"
 #include "engine/physics/random.h"
@@ -15,43 +15,19 @@ namespace clatter {
 
 namespace {
 
-// The particles of a gas at one time, and the room between them that no wall reaches.
+// The room between the particles of a gas at one time, and the walls at that time.
 template <int D>
-class FreeRoom {
- public:
-  FreeRoom(const Model<D>& model, const Scene& laws, const RunState<D>& state)
-      : model_(model), near_(model.domain(), model.diameter), low_(laws.clear_corner()) {
-    high_ = low_ + Vec<D>(laws.clear_box());
-    if (state.piston) high_[0] -= state.piston->travel(Clock(state.base).absolute(state.now));
-    for (std::size_t i = 0; i < state.flights.size(); ++i) {
-      near_.add(model.domain().wrapped(state.flights[i].at(state.now, state.gravity)));
-      radii_.push_back(state.grains.empty() ? 0.5 * model.diameter : state.grains[i].radius);
-    }
+FreeRoom<D> room_between(const Model<D>& model, const Scene& laws, const RunState<D>& state) {
+  const Vec<D> low = laws.clear_corner();
+  Vec<D> high = low + Vec<D>(laws.clear_box());
+  if (state.piston) high[0] -= state.piston->travel(Clock(state.base).absolute(state.now));
+  FreeRoom<D> room(model.domain(), model.diameter, low, high);
+  for (std::size_t i = 0; i < state.flights.size(); ++i) {
+    room.insert(state.flights[i].at(state.now, state.gravity),
+                state.grains.empty() ? 0.5 * model.diameter : state.grains[i].radius);
   }
-
-  // Inserts a particle in the box, if it has room there.
-  bool insert_if_free(const Vec<D>& point, double radius) {
-    for (int axis = 0; axis < D; ++axis) {
-      if (model_.periodic(axis)) continue;
-      if (!(point[axis] >= low_[axis] + radius && point[axis] <= high_[axis] - radius))
-        return false;
-    }
-    bool free = true;
-    near_.visit(point, [&](std::uint32_t other, const Vec<D>& way) {
-      free = free && way.norm() >= radius + radii_[other];
-    });
-    if (!free) return false;
-    near_.add(point);
-    radii_.push_back(radius);
-    return true;
-  }
-
- private:
-  const Model<D>& model_;
-  NearParticles<D> near_;
-  std::vector<double> radii_;
-  Vec<D> low_, high_;  // of the room for surfaces, along axes with walls
-};
+  return room;
+}
 
 // A point in a ball around the origin, with equal probability everywhere.
 template <int D>
@@ -71,7 +47,7 @@ std::vector<PuffParticle<D>> puff_particles(const RunState<D>& state, const Puff
   constexpr int kTries = 10'000;  // of a particle in succession
   const Model<D> model = model_of<D>(laws, seed);
   const std::size_t before = state.flights.size();
-  FreeRoom<D> room(model, laws, state);
+  FreeRoom<D> room = room_between(model, laws, state);
   Random random(seed, Stream::Puff, static_cast<std::uint32_t>(state.counts.puffs), 0);
   const Vec<D> centre = puff.centre;
   const Vec<D> mean = puff.velocity ? Vec<D>(*puff.velocity) : Vec<D>(Vec<D>::Zero());

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "engine/dynamics/simulation.h"
@@ -99,6 +100,20 @@ void check_no_room(const Vec<D>& size, int thin, int dense) {
   CHECK(now.positions == start_state<D>(scene, 5).positions);
 }
 
+/// Small particles, and large ones of unequal sizes.
+template <int D>
+Scene mixed_box(int small, int large, const Vec<D>& size) {
+  Scene scene = box<D>(small + large, size);
+  scene.species.resize(2);
+  scene.species[0].name = "small";
+  scene.species[0].count = small;
+  scene.species[1].name = "large";
+  scene.species[1].count = large;
+  scene.species[1].diameter = 1.6;
+  scene.species[1].polydispersity = Polydispersity{Spread::Uniform, 0.2};
+  return scene;
+}
+
 }  // namespace
 
 TEST_CASE("Adapted state: particles that fit stay, others are added, none overlap") {
@@ -133,4 +148,45 @@ TEST_CASE("Adapted state: added particles have the temperature of the gas") {
 TEST_CASE("Adapted state: without room at random places, the gas starts as the scene says") {
   check_no_room<2>({20.0, 25.0}, 200, 450);     // phi = 0.71
   check_no_room<3>({7.0, 6.0, 7.0}, 120, 250);  // phi = 0.45
+}
+
+// A larger box and the same one keep every particle. A smaller one keeps those inside.
+TEST_CASE("Adapted state: particles of a mixture stay, with their sizes") {
+  const Scene first = mixed_box<2>(90, 20, {20.0, 18.0});
+  check_places<2>(first, {{mixed_box<2>(90, 20, {20.0, 18.0}), 110},
+                          {mixed_box<2>(90, 20, {26.0, 18.0}), 104},
+                          {mixed_box<2>(120, 20, {20.0, 18.0}), 110},
+                          {mixed_box<2>(50, 20, {20.0, 18.0}), 70},
+                          {mixed_box<2>(90, 20, {18.0, 16.0}), 70}});
+  check_places<3>(
+      mixed_box<3>(90, 20, {8.0, 9.0, 8.0}),
+      {{mixed_box<3>(90, 20, {8.0, 9.0, 8.0}), 110}, {mixed_box<3>(60, 25, {8.0, 9.0, 8.0}), 80}});
+  const State<2> before = start_state<2>(first, 3);
+  const State<2> now = adapt_to_scene(before, mixed_box<2>(90, 20, {26.0, 18.0}), 3);
+  for (const auto& [then, here] : kept(before, now)) {
+    CHECK(now.grains[here] == before.grains[then]);
+  }
+  CHECK(std::ranges::is_sorted(now.grains, {}, &Grain::species));
+}
+
+// Kinetic energies (m/2) v^2: T = 4 +- 5 standard errors of 500 particles, .063 each.
+TEST_CASE("Adapted state: added particles of a mixture have the temperature of the gas") {
+  State<2> before = start_state<2>(mixed_box<2>(20, 4, {60.0, 60.0}), 4);
+  for (Vec2& v : before.velocities) v *= 2.0;
+  const State<2> now = adapt_to_scene(before, mixed_box<2>(20, 504, {60.0, 60.0}), 4);
+  REQUIRE(now.grains.size() == 524);
+  const auto pairs = kept(before, now);
+  double squares = 0.0;
+  for (std::size_t i = 0; i < now.grains.size(); ++i) {
+    const bool stayed = std::ranges::any_of(pairs, [&](const auto& p) { return p.second == i; });
+    if (!stayed) squares += now.grains[i].mass * now.velocities[i].squaredNorm();
+  }
+  const auto added = static_cast<double>(now.grains.size() - pairs.size());
+  CHECK(squares / (2.0 * added) == doctest::Approx(4.0).epsilon(5.0 / std::sqrt(added)));
+}
+
+TEST_CASE("Adapted state: a mixture without room starts as the scene says") {
+  const State<2> before = start_state<2>(mixed_box<2>(60, 10, {20.0, 18.0}), 5);
+  const Scene scene = mixed_box<2>(60, 100, {20.0, 18.0});  // phi = 0.69
+  CHECK(adapt_to_scene(before, scene, 5).positions == start_state<2>(scene, 5).positions);
 }
