@@ -45,14 +45,28 @@ constexpr double kSamples = 100.0;
 
 constexpr std::string_view kSetting = "#set ";
 
+// The paths of a key in settings: items of lists have the names of the species in mixture.toml.
+std::vector<std::string> paths_of(const std::string& key) {
+  for (const std::string list : {"species.", "pair."}) {
+    if (!key.starts_with(list)) continue;
+    const std::string rest = key.substr(list.size());
+    if (list == "pair.") return {"pair.a.b." + rest, "pair.b.b." + rest};
+    return {"species.a." + rest, "species.b." + rest};
+  }
+  return {key};
+}
+
 std::vector<std::string> keys_of_scenes() {
   std::vector<std::string> keys;
   for (const int dimension : {2, 3}) {
     KeyLister lister;
     SceneInput any;
     any.scene = default_scene(dimension);
+    any.species_names = {"a", "b"};
     visit_scene(lister, any);
-    keys.insert(keys.end(), lister.keys().begin(), lister.keys().end());
+    for (const std::string& key : lister.keys()) {
+      for (std::string& path : paths_of(key)) keys.push_back(std::move(path));
+    }
   }
   return keys;
 }
@@ -80,7 +94,7 @@ std::string extreme_puffs(std::minstd_rand& random) {
   return "[{ time = 0.1, puff = { count = " + std::to_string(1 + random() % 50) + ", centre = [" +
          extreme_number(random) + ", " + extreme_number(random) +
          "], radius = " + extreme_number(random) + ", temperature = " + extreme_number(random) +
-         " } }, { time = " + extreme_number(random) +
+         (random() % 2 ? ", species = 'b'" : "") + " } }, { time = " + extreme_number(random) +
          ", nudge = { particle = " + std::to_string(random() % 50) + ", set = [1, " +
          extreme_number(random) + "] } }]";
 }
