@@ -184,7 +184,7 @@ TEST_CASE("Bench: the table of features has a rate for each") {
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
   const json table = json::parse(shell.read("t.json"));
-  REQUIRE(table.size() == 33);
+  REQUIRE(table.size() == 34);
   check_columns(outcome.out, table, "with Mcoll/s rate",
                 {{"million_collisions_per_cpu_second", " %.3f"}, {"rate_over_bare", " %.3f"}});
   const double bare = table[0].at("million_collisions_per_cpu_second");
