@@ -10,17 +10,17 @@ namespace clatter {
 
 /// Time averages of a gas between two frames.
 struct Sample {
-  double time = 0.0;              ///< middle of the averaging interval
-  VecX temperature;               ///< [D] T_x, T_y and, for spheres, T_z
-  double spin_temperature = 0.0;  ///< 0 without spins
-  double walls_in = 0.0;          ///< power of the walls
-  double bulk_in = 0.0;           ///< power of the bulk drive
-  double nudges_in = 0.0;         ///< power of nudges
-  double gravity_in = 0.0;        ///< power of gravity
-  double dissipated = 0.0;        ///< dissipated power
-  double ledger_residual = 0.0;   ///< magnitude of Totals::ledger_residual()
-  double deepest_overlap = 0.0;   ///< see RunChecks
-  std::vector<double> species_temperature = {};  ///< [S] NaN: no particles; empty: no mixture
+  double time = 0.0;                             ///< middle of the averaging interval
+  VecX temperature;                              ///< [D] T_x, T_y and, for spheres, T_z
+  double spin_temperature = 0.0;                 ///< 0 without spins
+  double walls_in = 0.0;                         ///< power of the walls
+  double bulk_in = 0.0;                          ///< power of the bulk drive
+  double nudges_in = 0.0;                        ///< power of nudges
+  double gravity_in = 0.0;                       ///< power of gravity
+  double dissipated = 0.0;                       ///< dissipated power
+  double ledger_residual = 0.0;                  ///< magnitude of Totals::ledger_residual()
+  double deepest_overlap = 0.0;                  ///< see RunChecks
+  std::vector<double> species_temperature = {};  ///< [S] T_s, NaN: no particles; empty: no mixture
   Mixing mixing = {};  ///< at the end, in cells of about ten particles; undefined without a mixture
 };
 

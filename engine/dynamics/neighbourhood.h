@@ -16,8 +16,8 @@
 // and of all neighbouring cells (CellGrid). A particle changes cells only when it is beyond the
 // border by an overhang, which is as wide as contacts allow. This hysteresis prevents repeated
 // crossings. Cells become finer in clusters. Spheres above a volume fraction of 0.43, in a mixture
-// that of as many of its largest spheres, have lists of their own (NeighbourLists). These lists have
-// half as many particles as those of 27 cells, and dense spheres leave their regions rarely.
+// that of as many of its largest spheres, have lists of their own (NeighbourLists). These lists
+// have half as many particles as those of 27 cells, and dense spheres leave their regions rarely.
 
 namespace clatter {
 

@@ -24,8 +24,8 @@ constexpr std::array<Field, 5> profiled_fields(Axis axis) {
 /// The same fields, and for each of this number of species its density and its temperature.
 std::vector<Field> profiled_fields(Axis axis, std::size_t species);
 
-/// Profiles of profiled_fields() along an axis of a running simulation, averaged since this observer
-/// was made.
+/// Profiles of profiled_fields() along an axis of a running simulation, averaged since this
+/// observer was made.
 template <int D>
 class LiveProfile {
  public:

@@ -11,22 +11,22 @@ namespace clatter {
 
 /// Quantities that a run measures besides means and fields.
 enum class ObservableKind : std::uint8_t {
-  RadialDistribution,        ///< g(r)
-  VelocityDistribution,      ///< of the components, and Sonine coefficients
-  FreeFlights,               ///< times and lengths of paths between collisions of particles
-  Collisions,                ///< impact parameters, impact speeds and energy losses
-  WallHits,                  ///< normal speeds before and after, and energy gains
-  MeanSquaredDisplacement,   ///< of unwrapped positions
-  VelocityAutocorrelation,   ///< <v_k(0) v_k(t)>
-  StructureFactor,           ///< S(k)
-  Clusters,                  ///< sizes of clusters, and their growth
-  BondOrder,                 ///< psi_6 of disks and its correlation in time
-  WallPower,                 ///< distribution of the power of the walls
-  PlaneCurrent,              ///< net number of particles that cross a plane
-  LocalDensity,              ///< number of particles in cells
-  SpinDistribution,          ///< of the components, and angles between spin and velocity
-  Probe,                     ///< density, temperature and velocity in a region over time
-  CollisionCounts,           ///< of each particle and of pairs in intervals
+  RadialDistribution,         ///< g(r)
+  VelocityDistribution,       ///< of the components, and Sonine coefficients
+  FreeFlights,                ///< times and lengths of paths between collisions of particles
+  Collisions,                 ///< impact parameters, impact speeds and energy losses
+  WallHits,                   ///< normal speeds before and after, and energy gains
+  MeanSquaredDisplacement,    ///< of unwrapped positions
+  VelocityAutocorrelation,    ///< <v_k(0) v_k(t)>
+  StructureFactor,            ///< S(k)
+  Clusters,                   ///< sizes of clusters, and their growth
+  BondOrder,                  ///< psi_6 of disks and its correlation in time
+  WallPower,                  ///< distribution of the power of the walls
+  PlaneCurrent,               ///< net number of particles that cross a plane
+  LocalDensity,               ///< number of particles in cells
+  SpinDistribution,           ///< of the components, and angles between spin and velocity
+  Probe,                      ///< density, temperature and velocity in a region over time
+  CollisionCounts,            ///< of each particle and of pairs in intervals
   RadialDistributionProfile,  ///< g(r) in slabs along an axis
   Mixing                      ///< how well the species of a mixture are mixed
 };
