@@ -363,6 +363,30 @@ static std::optional<LivePlot> lecture_plot_of(LecturePlot which, const PlottedG
   return std::nullopt;
 }
 
+// The plot of each gas, joined by compared_plot(). Absent: some gas has none.
+template <class PlotOf>
+static std::optional<LivePlot> joined_plot(const std::vector<PlottedGas>& gases,
+                                           const PlotOf& plot_of) {
+  std::vector<LivePlot> of_gases;
+  std::vector<std::string> names;
+  for (const PlottedGas& gas : gases) {
+    std::optional<LivePlot> plot = plot_of(gas);
+    if (!plot) return std::nullopt;
+    of_gases.push_back(std::move(*plot));
+    names.push_back(gas.name);
+  }
+  return gases.size() == 1 ? of_gases.front() : compared_plot(of_gases, names, false);
+}
+
+static std::optional<LivePlot> plot_of_species(FilmPlot which, const PlottedGas& gas,
+                                               const ThemeColours& theme) {
+  const Scene& scene = *gas.frame->scene;
+  const std::vector<Sample>& samples = gas.history->samples();
+  if (scene.species.empty()) return std::nullopt;
+  return which == FilmPlot::Mixing ? mixing_plot(samples, theme.text)
+                                   : species_temperature_plot(samples, scene, theme);
+}
+
 static LecturePlot kind_of(FilmPlot which) {
   switch (which) {
     case FilmPlot::Temperature:
@@ -371,6 +395,9 @@ static LecturePlot kind_of(FilmPlot which) {
       return LecturePlot::Energy;
     case FilmPlot::Velocities:
       return LecturePlot::Velocities;
+    case FilmPlot::SpeciesTemperature:
+    case FilmPlot::Mixing:
+      break;
     case FilmPlot::DensityProfile:
     case FilmPlot::TemperatureProfile:
     case FilmPlot::StressProfile:
@@ -383,6 +410,10 @@ static LecturePlot kind_of(FilmPlot which) {
 
 std::optional<LivePlot> film_plot(FilmPlot which, const std::vector<PlottedGas>& gases,
                                   const ThemeColours& theme) {
+  if (which == FilmPlot::SpeciesTemperature || which == FilmPlot::Mixing) {
+    return joined_plot(gases,
+                       [&](const PlottedGas& gas) { return plot_of_species(which, gas, theme); });
+  }
   const LecturePlot kind = kind_of(which);
   const auto first = static_cast<int>(FilmPlot::DensityProfile);
   const int profiled = is_profile(which) ? static_cast<int>(which) - first : 0;
@@ -391,15 +422,8 @@ std::optional<LivePlot> film_plot(FilmPlot which, const std::vector<PlottedGas>&
 
 std::optional<LivePlot> lecture_plot(LecturePlot which, const std::vector<PlottedGas>& gases,
                                      std::size_t profiled, const ThemeColours& theme) {
-  std::vector<LivePlot> of_gases;
-  std::vector<std::string> names;
-  for (const PlottedGas& gas : gases) {
-    auto plot = lecture_plot_of(which, gas, profiled, theme);
-    if (!plot) return std::nullopt;
-    of_gases.push_back(std::move(*plot));
-    names.push_back(gas.name);
-  }
-  return gases.size() == 1 ? of_gases.front() : compared_plot(of_gases, names, false);
+  return joined_plot(
+      gases, [&](const PlottedGas& gas) { return lecture_plot_of(which, gas, profiled, theme); });
 }
 
 }  // namespace clatter

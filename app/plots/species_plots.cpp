@@ -49,6 +49,7 @@ LivePlot species_temperature_plot(const std::vector<Sample>& samples, const Scen
                            ? "Share of T at which all temperatures fall at one rate; without flows"
                            : "Kinetic theory of a homogeneous mixture";
     }
+    measured.compared = s + 1 == std::min(colours.size(), kMostCurves);
     plot.curves.push_back(std::move(measured));
     if (std::isfinite(theory.temperatures[s])) plot.curves.push_back(std::move(predicted));
   }

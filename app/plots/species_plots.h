@@ -18,7 +18,8 @@ struct SpeciesTheory {
 /// The theory of a scene with species.
 SpeciesTheory species_theory(const Scene& scene);
 
-/// The temperature of each species over time, with theory.
+/// The temperature of each species over time, with theory. The last species stands for its gas
+/// where several gases are compared.
 LivePlot species_temperature_plot(const std::vector<Sample>& samples, const Scene& scene,
                                   const ThemeColours& theme);
 

@@ -80,10 +80,12 @@ inline constexpr std::array<Named<OverlayPart>, 9> kOverlayParts = {
      {"scale_bar", OverlayPart::ScaleBar},
      {"captions", OverlayPart::Captions}}};
 
-inline constexpr std::array<Named<FilmPlot>, 8> kFilmPlots = {
+inline constexpr std::array<Named<FilmPlot>, 10> kFilmPlots = {
     {{"temperature", FilmPlot::Temperature},
      {"energy", FilmPlot::Energy},
      {"velocities", FilmPlot::Velocities},
+     {"species_temperature", FilmPlot::SpeciesTemperature},
+     {"mixing", FilmPlot::Mixing},
      {"density_profile", FilmPlot::DensityProfile},
      {"temperature_profile", FilmPlot::TemperatureProfile},
      {"stress_profile", FilmPlot::StressProfile},

@@ -347,8 +347,14 @@ static void check_axes(const Scene& scene, const toml::table& root, const std::s
   check("measure.radial_distribution_profile.axis", scene.measure.radial_distribution_profile.axis);
 }
 
-/// Throws if films have too many plots.
+/// Throws if films have too many plots, or those of species without species.
 static void check_plots(const Scene& scene, const toml::table& root, const std::string& file) {
+  for (const FilmPlot plot : {FilmPlot::SpeciesTemperature, FilmPlot::Mixing}) {
+    if (!scene.species.empty() || !std::ranges::count(scene.view.plots, plot)) continue;
+    throw UserError(place_of(root, "view.plots", file),
+                    '"' + std::string(name_of(plot, kFilmPlots)) + "\" is for mixtures",
+                    "remove it, or give the scene [[species]]");
+  }
   if (scene.view.plots.size() <= View::kMostPlots) return;
   throw UserError(place_of(root, "view.plots", file),
                   "films have at most " + std::to_string(View::kMostPlots) + " plots",

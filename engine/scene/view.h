@@ -123,6 +123,8 @@ enum class FilmPlot {
   Temperature,
   Energy,
   Velocities,
+  SpeciesTemperature,  ///< of mixtures only
+  Mixing,              ///< of mixtures only
   DensityProfile,
   TemperatureProfile,
   StressProfile,

@@ -83,6 +83,25 @@ TEST_CASE("Species plots: the theory of free cooling is a share of the present T
         doctest::Approx(ratio * curve_of(gas.plot("Temperature"), "T").points[4].y()));
 }
 
+TEST_CASE("Species plots: films have both plots, of two gases the last species of each") {
+  const Watched gas(parse_scene(kKicked, ""), 3);
+  const auto film = [&](FilmPlot which, std::size_t gases) {
+    std::vector<PlottedGas> plotted;
+    for (std::size_t k = 0; k < gases; ++k) {
+      plotted.push_back({&gas.history, &gas.frame, "gas " + std::to_string(k)});
+    }
+    return film_plot(which, plotted, kDarkTheme);
+  };
+  CHECK(film(FilmPlot::Mixing, 1)->curves.size() == 4);
+  CHECK(film(FilmPlot::SpeciesTemperature, 1)->curves[0].name == "light");
+  const auto compared = film(FilmPlot::SpeciesTemperature, 2);
+  REQUIRE(compared->curves.size() == 2);
+  CHECK(compared->title == "Temperatures of species, heavy");
+  CHECK(compared->curves[1].name == "gas 1");
+  CHECK(compared->curves[1].points.back().y() ==
+        curve_of(gas.plot("Temperatures of species"), "heavy").points.back().y());
+}
+
 TEST_CASE("Species plots: a profile has the density of each species") {
   const Watched gas(parse_scene(kKicked, ""), 12);
   const LivePlot plot = gas.plot("Profile");

@@ -138,6 +138,7 @@ TEST_CASE("Scene file: mistakes are reported with their place and a fix") {
        "nothing spins"},
       {view + "colour_by = \"spin\"\n", "4:1", "nothing spins"},
       {view + "colour_by = \"species\"\n", "4:1", "the particles have no species"},
+      {view + "plots = [\"mixing\"]\n", "4:1", "\"mixing\" is for mixtures"},
       {view + "field = \"spin_temperature\"\n", "4:1", "nothing spins"},
       {measure + "fields = [\"density\", \"spin\"]\n", "4:1", "nothing spins"},
       // forces
