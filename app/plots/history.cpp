@@ -64,8 +64,15 @@ std::vector<double> SpeciesAverages::take() {
 static Mixing mixing_in(const Snapshot& snapshot, std::size_t species) {
   constexpr double kParticles = 10.0;
   const auto count = static_cast<double>(std::max<std::size_t>(snapshot.count(), 1));
-  const double volume = snapshot.box.prod() * kParticles / count;
-  const double edge = std::pow(volume, 1.0 / static_cast<double>(snapshot.box.size()));
+  VecX sides = snapshot.box;
+  std::ranges::sort(sides);
+  double volume = sides.prod() * kParticles / count;  // of a cell across the further axes
+  double edge = 0.0;
+  for (Eigen::Index k = 0; k < sides.size(); ++k) {
+    edge = std::pow(volume, 1.0 / static_cast<double>(sides.size() - k));
+    if (sides[k] >= edge) break;
+    volume /= sides[k];  // one cell along a short side
+  }
   const CountedCells cells(snapshot.box, {.cell = edge});
   std::vector<std::uint32_t> numbers(cells.size() * species);
   for (std::size_t i = 0; i < snapshot.grains.size(); ++i) {
@@ -74,6 +81,12 @@ static Mixing mixing_in(const Snapshot& snapshot, std::size_t species) {
     ++numbers[cell * species + snapshot.grains[i].species];
   }
   return mixing_of(numbers, species);
+}
+
+void History::predict(const std::shared_ptr<const Scene>& scene) {
+  if (!scene || scene == scene_) return;
+  scene_ = scene;
+  theory_ = scene->species.empty() ? SpeciesTheory() : clatter::species_theory(*scene);
 }
 
 void History::add(const Frame& frame) {
@@ -88,6 +101,7 @@ void History::add(const Frame& frame) {
   }
   if (frame.futures != futures_) fork(frame);
   const double span = frame.tally.time - last_.time;
+  predict(frame.scene);
   if (frame.snapshot.time < frame.head || !(span > 0.0)) return;
   velocities_.add(frame.snapshot);
   const std::size_t species = frame.scene->species.size();
@@ -143,8 +157,9 @@ void History::thin_out() {
                        .species_temperature = b.species_temperature,
                        .mixing = b.mixing});
     for (std::size_t s = 0; s < b.species_temperature.size(); ++s) {
+      const double before = a.species_temperature[s];
       double& temperature = thinned.back().species_temperature[s];
-      temperature = 0.5 * (a.species_temperature[s] + temperature);
+      if (!std::isnan(before)) temperature = 0.5 * (before + temperature);
     }
   }
   samples_ = std::move(thinned);

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
+#include "app/plots/species_theory.h"
 #include "engine/live/frame.h"
 #include "engine/physics/mixing.h"
 
@@ -94,13 +96,17 @@ class History {
   const std::vector<Sample>& samples() const { return samples_; }
   /// Histogram of all particles over the last seconds.
   const VelocityHistogram& velocities() const { return velocities_; }
+  /// The theory of a mixture is that of this scene from now on. add() does the same.
+  void predict(const std::shared_ptr<const Scene>& scene);
+  /// The theory of the last scene; empty without species.
+  const SpeciesTheory& species_theory() const { return theory_; }
   /// The smallest time between later samples.
   double spacing() const { return spacing_; }
 
   /// Visits all members, for checkpoints.
   template <class Archive>
   void visit(Archive& io) {
-    auto& [run, futures, last, spacing, samples, velocities, species] = *this;
+    auto& [run, futures, last, spacing, samples, velocities, species, scene, theory] = *this;
     io(run, futures, last, spacing, samples, velocities, species);
   }
 
@@ -115,6 +121,8 @@ class History {
   std::vector<Sample> samples_;
   VelocityHistogram velocities_;
   SpeciesAverages species_;
+  std::shared_ptr<const Scene> scene_;  // of the theory
+  SpeciesTheory theory_;
 };
 
 }  // namespace clatter

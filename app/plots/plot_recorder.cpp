@@ -101,6 +101,7 @@ std::shared_ptr<const Scene> PlotRecorder<D>::scene() const {
 template <int D>
 PlottedGas PlotRecorder<D>::gas() {
   frame_.scene = scene();
+  history_.predict(frame_.scene);
   if (profile_) frame_.profile = profile_->profile();
   return {&history_, &frame_, ""};
 }

@@ -258,9 +258,9 @@ std::vector<LivePlot> plots_of(const History& history, const Frame& frame, std::
   if (frame.residuals) plots.push_back(balance_plot(*frame.residuals, dimension));
   plots.push_back(temperature_plot(samples, *frame.scene, theme.text));
   if (!frame.scene->species.empty()) {
-    plots.push_back(species_temperature_plot(samples, *frame.scene, theme));
-    plots.push_back(mixing_plot(samples, theme.text));
+    plots.push_back(species_temperature_plot(history, *frame.scene, theme));
   }
+  if (frame.scene->species.size() > 1) plots.push_back(mixing_plot(samples, theme.text));
   plots.push_back(energy_plot(samples, static_cast<double>(frame.snapshot.count()), theme.text));
   plots.push_back(velocity_plot(history.velocities(), dimension, theme.text));
   const auto gas = vibrated_gas(*frame.scene);
@@ -381,10 +381,9 @@ static std::optional<LivePlot> joined_plot(const std::vector<PlottedGas>& gases,
 static std::optional<LivePlot> plot_of_species(FilmPlot which, const PlottedGas& gas,
                                                const ThemeColours& theme) {
   const Scene& scene = *gas.frame->scene;
-  const std::vector<Sample>& samples = gas.history->samples();
   if (scene.species.empty()) return std::nullopt;
-  return which == FilmPlot::Mixing ? mixing_plot(samples, theme.text)
-                                   : species_temperature_plot(samples, scene, theme);
+  return which == FilmPlot::Mixing ? mixing_plot(gas.history->samples(), theme.text)
+                                   : species_temperature_plot(*gas.history, scene, theme);
 }
 
 static LecturePlot kind_of(FilmPlot which) {

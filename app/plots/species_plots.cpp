@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
-#include <string>
+#include <utility>
 
 #include "app/plots/plot_colours.h"
-#include "app/results/mixture_theory_json.h"
 #include "app/results/theory_json.h"
 #include "render/species_colours.h"
 
@@ -16,42 +14,34 @@ namespace clatter {
 // Curves of the plots: the palette has eight colours.
 constexpr std::size_t kMostCurves = 8;
 
-SpeciesTheory species_theory(const Scene& scene) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  SpeciesTheory theory{std::vector<double>(scene.species.size(), kNone)};
-  const nlohmann::ordered_json json = mixture_theory_json(scene);
-  for (const auto& one : json.value("species", nlohmann::ordered_json::array())) {
-    const auto number = find_species(scene.species, one.at("name").get<std::string>());
-    theory.relative = one.contains("temperature_ratio");
-    const char* const key = theory.relative ? "temperature_ratio" : "temperature";
-    theory.temperatures[number.value()] = one.value(key, kNone);
-  }
-  return theory;
-}
-
-LivePlot species_temperature_plot(const std::vector<Sample>& samples, const Scene& scene,
+LivePlot species_temperature_plot(const History& history, const Scene& scene,
                                   const ThemeColours& theme) {
+  const std::vector<Sample>& samples = history.samples();
   LivePlot plot{"Temperatures of species", "time t", false, false, {}, "m a²/t²"};
   plot.log_x = plot.log_y = cools_freely(scene) && scene.changes.empty();
-  const SpeciesTheory theory = species_theory(scene);
+  const SpeciesTheory& theory = history.species_theory();
+  bool named = false;
   const std::vector<Colour> colours = species_colours(scene.species, theme.background);
   for (std::size_t s = 0; s < std::min(colours.size(), kMostCurves); ++s) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    const double expected = s < theory.temperatures.size() ? theory.temperatures[s] : kNone;
+    const bool known = std::isfinite(expected);
     Curve measured{scene.species[s].name, colours[s], {}};
     Curve predicted{.name = "", .colour = colours[s], .points = {}, .dashed = true};
     for (const Sample& sample : samples) {
       measured.points.emplace_back(sample.time, sample.species_temperature[s]);
       const double scale = theory.relative ? sample.temperature.mean() : 1.0;
-      predicted.points.emplace_back(sample.time, scale * theory.temperatures[s]);
+      predicted.points.emplace_back(sample.time, scale * expected);
     }
-    if (s == 0) {
+    if (known && !std::exchange(named, true)) {
       predicted.name = "theory";
       predicted.help = theory.relative
-                           ? "Share of T at which all temperatures fall at one rate; without flows"
+                           ? "The share of T in equilibrium, or in a homogeneous gas that cools"
                            : "Kinetic theory of a homogeneous mixture";
     }
     measured.compared = s + 1 == std::min(colours.size(), kMostCurves);
     plot.curves.push_back(std::move(measured));
-    if (std::isfinite(theory.temperatures[s])) plot.curves.push_back(std::move(predicted));
+    if (known) plot.curves.push_back(std::move(predicted));
   }
   return plot;
 }

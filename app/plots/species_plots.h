@@ -9,18 +9,9 @@
 
 namespace clatter {
 
-/// Temperatures of species by kinetic theory (theory 12.14-12.15).
-struct SpeciesTheory {
-  std::vector<double> temperatures;  ///< [S] NaN: the theory has none for this species
-  bool relative = false;             ///< over T: the gas cools freely
-};
-
-/// The theory of a scene with species.
-SpeciesTheory species_theory(const Scene& scene);
-
-/// The temperature of each species over time, with theory. The last species stands for its gas
-/// where several gases are compared.
-LivePlot species_temperature_plot(const std::vector<Sample>& samples, const Scene& scene,
+/// The temperature of each species over time, with the theory of the history. The last species
+/// stands for its gas where several gases are compared.
+LivePlot species_temperature_plot(const History& history, const Scene& scene,
                                   const ThemeColours& theme);
 
 /// The mixing of the species over time, with its expectation for species at random.

@@ -15,9 +15,10 @@
 // Near particles are in lists (Neighbourhood). The list of a cell holds the particles of the cell
 // and of all neighbouring cells (CellGrid). A particle changes cells only when it is beyond the
 // border by an overhang, which is as wide as contacts allow. This hysteresis prevents repeated
-// crossings. Cells become finer in clusters. Spheres above a volume fraction of 0.43, in a mixture
-// that of as many of its largest spheres, have lists of their own (NeighbourLists). These lists
-// have half as many particles as those of 27 cells, and dense spheres leave their regions rarely.
+// crossings. Cells become finer in clusters. Spheres above a volume fraction of 0.43 have lists of
+// their own (NeighbourLists). In a mixture the fraction is that of as many spheres that are as wide
+// as the cells. These lists have half as many particles as those of 27 cells, and dense spheres
+// leave their regions rarely.
 
 namespace clatter {
 
@@ -193,8 +194,8 @@ class Neighbourhood {
     for (const Grain& grain : grains) {
       if (kAlike * 2.0 * grain.radius < model.diameter) return false;
     }
-    // Cells have the width of the largest particle, and so many particles as if all were so large.
-    const double volume = particles * std::pow(model.diameter, D);  // of the cubes about them
+    // Lists of cells are as long as those of a gas of particles that are as wide as the cells.
+    const double volume = particles * std::pow(grid_sizes<D>(model, grains).base, D);  // of cubes
     return packing_fraction(D, volume / model.box.prod()) > kDense;
   }
   bool by_particle() const { return D == 3 && lists_.has_value(); }

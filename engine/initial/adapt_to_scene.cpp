@@ -39,7 +39,10 @@ std::vector<Heir> heirs_of(const State<D>& state, const Scene& scene) {
       if (state.grains[i].species == s) present.push_back(i);
     }
     std::ranges::stable_sort(present, {}, [&](std::size_t i) { return state.grains[i].radius; });
-    for (std::size_t k = 0; k < present.size(); ++k) heirs[begin + k].from = present[k];
+    // Further particles are of all sizes.
+    for (std::size_t k = 0; k < present.size(); ++k) {
+      heirs[begin + k * count / present.size()].from = present[k];
+    }
     const auto first = heirs.begin() + static_cast<std::ptrdiff_t>(begin);
     std::stable_sort(first, first + scene.species[s].count,
                      [](const Heir& one, const Heir& other) { return one.from < other.from; });

@@ -8,9 +8,9 @@
 
 namespace clatter {
 
-/// Mixing of the species of a mixture in the cells of a grid over the box (theory 12.17-12.19).
+/// Mixing of the species of a mixture in the cells of a grid over the box (theory 12.18-12.20).
 /// Table "mixing.series", means "mixing.lacey", "mixing.entropy" and "mixing.random_entropy".
-/// States without two species are not counted.
+/// States without two species, or without two particles in a cell, are not counted.
 template <int D>
 class SpeciesMixing final : public Observable {
  public:

@@ -84,6 +84,7 @@ Mixing mixing_of(std::span<const std::uint32_t> numbers, std::size_t species) {
       random_entropy += cells * drawn / all * expected_entropy_term(drawn, number, all);
     }
   }
+  if (occupied == all) return {kNone, kNone, kNone};
   const double random_variance = separate_variance * (occupied - 1.0) / (all - 1.0);  // S_R
   return {(separate_variance - variance) / (separate_variance - random_variance),
           entropy / separate_entropy, random_entropy / separate_entropy};

@@ -6,7 +6,7 @@
 
 namespace clatter {
 
-/// How well the species of a mixture are mixed, from their numbers in cells (theory 12.17-12.19).
+/// How well the species of a mixture are mixed, from their numbers in cells (theory 12.18-12.20).
 struct Mixing {
   double lacey;           ///< Lacey's index, by number: 0 in separate cells, 1 at random
   double entropy;         ///< entropy of mixing: 0 in separate cells, 1 with equal shares in all
@@ -14,7 +14,7 @@ struct Mixing {
 };
 
 /// The mixing of the particles in cells. `numbers` [cells][species] has those of each species. NaN
-/// where all particles are of one species.
+/// where all particles are of one species, or each is alone in its cell.
 Mixing mixing_of(std::span<const std::uint32_t> numbers, std::size_t species);
 
 }  // namespace clatter

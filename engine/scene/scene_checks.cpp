@@ -271,7 +271,7 @@ static void check_observables(const Scene& scene, const toml::table& root,
   }
   if (measure.observes(ObservableKind::Mixing) && scene.species.size() < 2) {
     throw UserError(place_of(root, "measure.observables", file),
-                    "\"mixing\" is for mixtures, and the scene has no two species",
+                    "\"mixing\" is for mixtures, and the scene has fewer than two species",
                     "remove it, or give the scene two [[species]]");
   }
   if (measure.observes(ObservableKind::StructureFactor)) check_wave_vectors(scene, root, file);
@@ -350,10 +350,11 @@ static void check_axes(const Scene& scene, const toml::table& root, const std::s
 /// Throws if films have too many plots, or those of species without species.
 static void check_plots(const Scene& scene, const toml::table& root, const std::string& file) {
   for (const FilmPlot plot : {FilmPlot::SpeciesTemperature, FilmPlot::Mixing}) {
-    if (!scene.species.empty() || !std::ranges::count(scene.view.plots, plot)) continue;
+    const std::size_t fewest = plot == FilmPlot::Mixing ? 2 : 1;
+    if (scene.species.size() >= fewest || !std::ranges::count(scene.view.plots, plot)) continue;
     throw UserError(place_of(root, "view.plots", file),
                     '"' + std::string(name_of(plot, kFilmPlots)) + "\" is for mixtures",
-                    "remove it, or give the scene [[species]]");
+                    "remove it, or give the scene more [[species]]");
   }
   if (scene.view.plots.size() <= View::kMostPlots) return;
   throw UserError(place_of(root, "view.plots", file),

@@ -92,6 +92,26 @@ void draw_band(ImDrawList& list, const PlotFrame& frame, const Curve& curve) {
   }
 }
 
+// Dashes of this length along a line. They continue from segment to segment.
+void draw_dashes(ImDrawList& list, const std::vector<ImVec2>& line, ImU32 ink, float width,
+                 float dash) {
+  float start = 0.0f;  // of the next dash, from the beginning of the segment
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const ImVec2 a = line[i - 1], b = line[i];
+    const float length = std::hypot(b.x - a.x, b.y - a.y);
+    const auto at = [&](float place) {
+      return ImVec2(a.x + (b.x - a.x) * place / length, a.y + (b.y - a.y) * place / length);
+    };
+    float place = start;
+    for (; place < length; place += 2.0f * dash) {
+      const float from = std::max(place, 0.0f), to = std::min(place + dash, length);
+      if (from < to) list.AddLine(at(from), at(to), ink, width);
+    }
+    start = place - length;
+    if (start > dash) start -= 2.0f * dash;  // the last dash goes on
+  }
+}
+
 void draw_curve(ImDrawList& list, const PlotFrame& frame, const Curve& curve, float unit) {
   const ImU32 ink = packed(curve.colour);
   const float width = 0.1f * unit;
@@ -103,7 +123,11 @@ void draw_curve(ImDrawList& list, const PlotFrame& frame, const Curve& curve, fl
   }
   std::vector<ImVec2> run;
   const auto stroke = [&] {
-    if (run.size() > 1) list.AddPolyline(run.data(), static_cast<int>(run.size()), ink, 0, width);
+    if (curve.dashed) {
+      draw_dashes(list, run, ink, width, 0.4f * unit);
+    } else if (run.size() > 1) {
+      list.AddPolyline(run.data(), static_cast<int>(run.size()), ink, 0, width);
+    }
     run.clear();
   };
   for (const Vec2& point : curve.points) {
@@ -113,24 +137,7 @@ void draw_curve(ImDrawList& list, const PlotFrame& frame, const Curve& curve, fl
       stroke();
     }
   }
-  if (!curve.dashed) return stroke();
-  // Dashes continue from segment to segment.
-  const float dash = 0.4f * unit;
-  float start = 0.0f;  // of the next dash, from the beginning of the segment
-  for (std::size_t i = 1; i < run.size(); ++i) {
-    const ImVec2 a = run[i - 1], b = run[i];
-    const float length = std::hypot(b.x - a.x, b.y - a.y);
-    float place = start;
-    for (; place < length; place += 2.0f * dash) {
-      const float s = std::max(place, 0.0f), e = std::min(place + dash, length);
-      if (!(s < e)) continue;
-      list.AddLine(ImVec2(a.x + (b.x - a.x) * s / length, a.y + (b.y - a.y) * s / length),
-                   ImVec2(a.x + (b.x - a.x) * e / length, a.y + (b.y - a.y) * e / length), ink,
-                   width);
-    }
-    start = place - length;
-    if (start > dash) start -= 2.0f * dash;  // the last dash goes on
-  }
+  stroke();
 }
 
 }  // namespace

@@ -34,6 +34,10 @@ TEST_CASE("Mixing: a single species has none") {
   CHECK(std::isnan(mixing_of(std::vector<std::uint32_t>{0, 0}, 2).entropy));
 }
 
+TEST_CASE("Mixing: particles that are alone in their cells have none") {
+  CHECK(std::isnan(mixing_of(std::vector<std::uint32_t>{1, 0, 0, 1, 1, 0}, 2).lacey));
+}
+
 // All ways in which three species (4, 3 and 2 particles) fill cells of 4, 1, 3 and 1 particles.
 TEST_CASE("Mixing: the means over all permutations are those at random") {
   std::vector<std::size_t> species = {0, 0, 0, 0, 1, 1, 1, 2, 2};

@@ -260,7 +260,7 @@ TEST_CASE("Species: mistakes are reported with their place and a fix") {
                  "diameter = 2.0\n"),
             "10:1", "a lattice of the largest particles has"},
            {"box.size = [9, 9]\nparticles.count = 3\nmeasure.observables = [\"mixing\"]\n", "3:9",
-            "has no two species"},
+            "fewer than two species"},
            {with("[measure]\nobservables = [\"mixing\"]\nmixing.cell = 1e-3\n"), "11:8",
             "more than 1e7 cells"},
            {with("[[change]]\ntime = 1\nset = { \"species.a.mass\" = 2 }\n"), "9:1",
