@@ -52,7 +52,8 @@ FeatureCost fields_of(const Scene& scene) {
 }
 
 // Price of an observable, minus 1, by `clatter bench features`. Samples are priced at one sample
-// per mean free time, and wall hits beside a gas with the same walls.
+// per mean free time, wall hits beside a gas with the same walls, and mixing beside the same
+// mixture.
 struct ObservablePrice {
   ObservableKind kind;
   double surcharge;
@@ -75,7 +76,7 @@ constexpr std::array<ObservablePrice, 18> kObservablePrices = {
      {ObservableKind::Probe, 0.09},
      {ObservableKind::CollisionCounts, 0.22},
      {ObservableKind::RadialDistributionProfile, 0.74},
-     {ObservableKind::Mixing, 0.06}}};
+     {ObservableKind::Mixing, 0.08}}};
 
 FeatureCost observables_of(const Scene& scene) {
   const Measure& measure = scene.measure;

@@ -107,8 +107,9 @@ void draw_dashes(ImDrawList& list, const std::vector<ImVec2>& line, ImU32 ink, f
       const float from = std::max(place, 0.0f), to = std::min(place + dash, length);
       if (from < to) list.AddLine(at(from), at(to), ink, width);
     }
-    start = place - length;
-    if (start > dash) start -= 2.0f * dash;  // the last dash goes on
+    // The last dash may continue in the next segment.
+    const float next = place - length;
+    start = next > dash ? next - 2.0f * dash : next;
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "engine/dynamics/simulation.h"
 #include "engine/dynamics/state_hash.h"
+#include "engine/initial/mixture_state.h"
 #include "engine/initial/start_state.h"
 #include "engine/physics/theory.h"
 #include "engine/scene/scene_file.h"
@@ -274,6 +275,19 @@ TEST_CASE("Reference: mixtures of spheres") {
       compare_mixtures(inelastic(with_walls(periodic_box(3.0, 3.2, 2.9), 1, wall), 0.8), {5}, ratio,
                        300);
     }
+  }
+}
+
+// A fraction of .77 if all 44 had the largest diameter, and of .47 with the middle one: dense
+// enough for lists of particles, whichever of these the cells are as wide as.
+TEST_CASE("Reference: dense mixtures of spheres, which have lists of their own") {
+  for (const double alpha : {1.0, 0.9}) {
+    Model<3> model = inelastic(periodic_box(3.1, 3.1, 3.1), alpha);
+    const State<3> kinds = mixed_gas(model, 6, 89, 1.4);
+    std::vector<Grain> grains;
+    for (std::size_t i = 0; i < 44; ++i) grains.push_back(kinds.grains[i % 3]);
+    model = with_species(model);
+    compare<3>(model, mixture_state<3>(model, grains, 1.0, 90), 1000);
   }
 }
 
