@@ -47,10 +47,12 @@ static const char* part_name(Part part) {
   return "";
 }
 
-Label label_of(Field field, int dimension) {
+Label label_of(Field field, int dimension, const std::string& species) {
   const QuantityTraits& traits = traits_of(field.quantity);
-  return {std::string(part_name(field.part)) + traits.title, traits.subscript + axes_of(field),
-          sign_of(field), typeset(unit_of(field.quantity, dimension))};
+  std::string subscript = traits.subscript + axes_of(field);
+  if (!subscript.empty() && !species.empty()) subscript += ' ';
+  return {std::string(part_name(field.part)) + traits.title, subscript + species, sign_of(field),
+          typeset(unit_of(field.quantity, dimension))};
 }
 
 }  // namespace clatter

@@ -21,7 +21,7 @@ std::string typeset(std::string unit);
 /// Label of the colour of the particles in `dimension` dimensions.
 Label label_of(ColourBy colour_by, int dimension = 2);
 /// Label of a field in `dimension` dimensions. A field without a component gets the label of the
-/// whole quantity.
-Label label_of(Field field, int dimension);
+/// whole quantity, and a field of a species the name of it after the component.
+Label label_of(Field field, int dimension, const std::string& species = {});
 
 }  // namespace clatter

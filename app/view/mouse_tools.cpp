@@ -140,8 +140,7 @@ void MouseTools::sliders(const Scene& scene, Controls& controls) {
                   count_, kUsualCount);
   count_ = std::round(count_);
   if (scene.species.empty()) return;
-  std::vector<std::string> names;
-  for (const Species& one : scene.species) names.push_back(one.name);
+  const std::vector<std::string> names = names_of(scene.species);
   species_ = std::min(species_, static_cast<int>(names.size()) - 1);
   controls.choice("tool.species", "Species", "Of the particles that a click adds", names, species_,
                   0);

@@ -50,7 +50,8 @@ static bool choose_colour(const Session& session, Controls& controls, View& view
 static bool choose_field(const Session& session, Controls& controls, View& view) {
   std::vector<std::string> words = {"none"};
   std::vector<std::optional<Field>> fields = {std::nullopt};
-  for (const auto& [name, field] : field_names(session.scene().dimension())) {
+  const Scene& scene = session.scene();
+  for (const auto& [name, field] : field_names(scene.dimension(), names_of(scene.species))) {
     if (of_spins(field) && !session.scene().spins()) continue;
     words.push_back(in_words(name));
     fields.emplace_back(field);

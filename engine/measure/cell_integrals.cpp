@@ -191,6 +191,16 @@ void CellIntegrals<D>::add_dissipation(const Vec<D>& place, double energy) {
 }
 
 template <int D>
+void CellIntegrals<D>::add_drag(const ParticleChange<D>& particle, const Vec<D>& place) {
+  const auto species = static_cast<int>(particle.grain.species);
+  if (species >= layout_.drag_count) return;
+  const int begin = layout_.drag + species * D;
+  spread(place, [&](std::size_t cell, double share) {
+    add(cell, begin, begin + D, particle.gain.momentum.data(), share);
+  });
+}
+
+template <int D>
 void CellIntegrals<D>::on_collision(const PairCollision<D>& collision) {
   const auto& [a, b] = collision.particles;
   end_flight(a, collision.time);
@@ -203,6 +213,10 @@ void CellIntegrals<D>::on_collision(const PairCollision<D>& collision) {
     const double lost = 0.5 * (a.energy() + b.energy());
     add_dissipation(a.position, lost);
     add_dissipation(partner, lost);
+  }
+  if (layout_.drag_count > 0 && a.grain.species != b.grain.species) {
+    add_drag(a, a.position);
+    add_drag(b, partner);
   }
 }
 

@@ -104,6 +104,7 @@ class CellIntegrals : public Observer<D> {
   void add_transfer(const Vec<D>& from, const Vec<D>& branch, const Vec<D>& momentum,
                     double energy);
   void add_dissipation(const Vec<D>& place, double energy);
+  void add_drag(const ParticleChange<D>& particle, const Vec<D>& place);
   void add(std::size_t cell, int begin, int end, const double* numbers, double weight);
   void add_kinetic(std::size_t cell, const Grain& grain, const Rates& rates, double weight);
   template <class Visit>

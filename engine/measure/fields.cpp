@@ -132,6 +132,7 @@ constexpr std::array<Derivation<D, S>, kQuantities.size()> kDerivations = {{
      }},
     {Quantity::Dissipation, sum::kDissipation, 0,
      [](Field, const Cell<D, S>& cell) { return cell.dissipation; }},
+    {Quantity::Drag, 0, 0, [](Field, const Cell<D, S>&) { return S(0.0); }},
     {Quantity::Spin, sum::kSpin, 0,
      [](Field field, const Cell<D, S>& cell) {
        return of_visitors(cell, cell.spin[std::max<int>(field.i, 0)] / cell.density);
@@ -164,6 +165,10 @@ Needs needs_of(Field field) {
 template <int D, class S>
 static void read_species(typename CellAverages<D, S>::Species& averages,
                          const MomentLayout<D>& layout, const S* row, int species) {
+  for (int k = 0; k < D; ++k) {
+    averages.drag[k] = species < layout.drag_count ? row[layout.drag + species * D + k] : S(0.0);
+  }
+  if (species >= layout.species_count) return;
   const S* const sums = row + layout.of_species(species);
   const auto read = [&](int place, int number) {
     const int index = place + number;
@@ -218,6 +223,7 @@ CellAverages<D, double> averages_of(const MomentLayout<D>& layout, const CellSum
 template <int D, class S>
 static S species_value(Field field, const CellAverages<D, S>& cell) {
   const auto& species = cell.species;
+  if (field.quantity == Quantity::Drag) return species.drag[field.i];
   const bool present = value_of(species.density) > kRounding;
   if (field.quantity == Quantity::Density) return present ? species.density : S(0.0);
   if (!present) return no_value<S>();

@@ -33,6 +33,7 @@ struct CellAverages {
     S mass_density;
     Vector momentum;
     Vector squares;  ///< sum m v_k^2
+    Vector drag;     ///< momentum that it gains in collisions with other species, per time
   } species;
 
   /// E = sum (m v^2 + I omega^2)/2.

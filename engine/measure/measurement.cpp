@@ -37,9 +37,10 @@ static IntVec<D> cells_of(const Measure& measure) {
   return Eigen::Map<const IntVec<D>>(measure.cells.data());
 }
 
-// The fields, and then those of each species.
+// The fields of all particles, and then those of each species.
 static std::vector<Field> with_species(std::vector<Field> fields, std::size_t species) {
   const std::vector<Field> all = fields;
+  std::erase_if(fields, [](Field field) { return of_species_alone(field.quantity); });
   for (std::size_t s = 0; s < species; ++s) {
     for (const Field field : all) {
       if (has_species(field.quantity)) fields.push_back(field.of(s));

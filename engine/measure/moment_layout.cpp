@@ -10,7 +10,7 @@ namespace clatter {
 template <int D>
 static void keep_species(MomentLayout<D>& layout, std::span<const Field> fields) {
   for (const Field field : fields) {
-    if (field.species == Field::kNone) continue;
+    if (field.species == Field::kNone || field.quantity == Quantity::Drag) continue;
     layout.species_count = std::max(layout.species_count, field.species + 1);
     int size = 1;
     if (field.quantity == Quantity::Velocity) size = layout.momentum + D;
@@ -20,6 +20,17 @@ static void keep_species(MomentLayout<D>& layout, std::span<const Field> fields)
   if (layout.species_count == 0) return;
   layout.species = layout.size;
   layout.size += layout.species_count * layout.species_size;
+}
+
+template <int D>
+static void keep_drag(MomentLayout<D>& layout, std::span<const Field> fields) {
+  for (const Field field : fields) {
+    if (field.quantity == Quantity::Drag)
+      layout.drag_count = std::max(layout.drag_count, field.species + 1);
+  }
+  if (layout.drag_count == 0) return;
+  layout.drag = layout.size;
+  layout.size += layout.drag_count * D;
 }
 
 template <int D>
@@ -46,6 +57,7 @@ MomentLayout<D> moment_layout(std::span<const Field> fields, bool spins, bool mi
   keep(sum::kEnergyTransfer, layout.energy_transfer, D);
   layout.along_branch = layout.size;
   keep(sum::kDissipation, layout.dissipation, 1);
+  keep_drag(layout, fields);
   return layout;
 }
 

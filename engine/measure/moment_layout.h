@@ -18,7 +18,7 @@ inline constexpr Needs kMomentum = 1, kSquares = 2, kShears = 4, kEnergyFlux = 8
 
 /// Layout of a cell's row of sums (theory 8): the index of each sum, or kAbsent. Only the sums that
 /// the requested fields need are stored. The order is: kinetic sums, over particles and time; sums
-/// over events, spread along a branch vector; and the sum at the ends of a branch vector.
+/// over events, spread along a branch vector; and the sums at the ends of a branch vector.
 template <int D>
 struct MomentLayout {
   static constexpr int kAbsent = -1;
@@ -40,6 +40,8 @@ struct MomentLayout {
   int energy_transfer = kAbsent;  ///< D: sum (dE_1 - dE_2)/2 r_12,k; at walls dE_1 (r_1 - r_w)_k
   int along_branch = 1;           ///< end of the sums spread along branch vectors
   int dissipation = kAbsent;      ///< 1: sum (dE_1 + dE_2)/2, at either end
+  int drag = kAbsent;             ///< D of each species: sum dp by other species, at its end
+  int drag_count = 0;             ///< number of species, from the first, that have a drag
   int size = 1;                   ///< numbers in a row
 
   /// Index of the first sum of a species.

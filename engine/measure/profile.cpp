@@ -11,7 +11,7 @@ namespace clatter {
 
 namespace {
 
-// The windows' sums in one column, and the estimate of a field from them.
+// The windows' sums in one column, and the estimates of fields from them.
 template <int D>
 class Column {
  public:
@@ -31,41 +31,49 @@ class Column {
 
   // The mean is the field of the windows' totals. The error comes from blocking of the windows'
   // contributions, linearised in their sums: a window's sum k minus the average times its length.
-  Estimate estimate(Field field) const {
-    const double mean =
-        field_value(field, averages_of<D, Dual>(layout_, along(-1).data(), field.species)).value;
-    if (std::isnan(mean)) return {mean, 0.0};
-    std::vector<double> parts(windows_.size());
-    const auto count = static_cast<double>(windows_.size());
+  std::vector<Estimate> estimates(std::span<const Field> fields) const {
+    std::vector<std::vector<double>> parts(fields.size(), std::vector<double>(windows_.size()));
+    std::vector<Estimate> estimates(fields.size());
+    std::vector<Dual> averages;  // per area; the slope of the variable is 1
     for (int k = 0; k < layout_.size; ++k) {
-      const double slope =
-          field_value(field, averages_of<D, Dual>(layout_, along(k).data(), field.species)).slope;
-      if (slope == 0.0) continue;
-      const double average = totals_[k] / total_weight(k);
-      const double scale = slope * count / (total_weight(k) * measure_);
-      for (std::size_t w = 0; w < parts.size(); ++w) {
-        const CellSums& window = windows_[w];
-        parts[w] += scale * (row(window)[k] - average * weight(k, window));
-      }
+      averages.emplace_back(totals_[k] / (total_weight(k) * measure_));
     }
-    return {mean, blocked_error(parts)};
+    for (int k = 0; k < layout_.size; ++k) {
+      averages[k].slope = 1.0;
+      CellAverages<D, Dual> cell = averages_of<D, Dual>(layout_, averages.data());
+      for (std::size_t f = 0; f < fields.size(); ++f) {
+        if (fields[f].species != Field::kNone) {
+          cell = averages_of<D, Dual>(layout_, averages.data(), fields[f].species);
+        }
+        const Dual value = field_value(fields[f], cell);
+        estimates[f].mean = value.value;
+        add_contributions(parts[f], k, value.slope);
+      }
+      averages[k].slope = 0.0;
+    }
+    for (std::size_t f = 0; f < fields.size(); ++f) {
+      if (!std::isnan(estimates[f].mean)) estimates[f].standard_error = blocked_error(parts[f]);
+    }
+    return estimates;
   }
 
  private:
+  // The contribution of sum k to a field with this slope, in each window.
+  void add_contributions(std::vector<double>& parts, int k, double slope) const {
+    if (slope == 0.0) return;
+    const double average = totals_[k] / total_weight(k);
+    const double scale = slope * static_cast<double>(parts.size()) / (total_weight(k) * measure_);
+    for (std::size_t w = 0; w < parts.size(); ++w) {
+      const CellSums& window = windows_[w];
+      parts[w] += scale * (row(window)[k] - average * weight(k, window));
+    }
+  }
+
   const double* row(const CellSums& window) const { return window.rows.data() + begin_; }
   double weight(int k, const CellSums& window) const {
     return k < layout_.kinetic ? window.kinetic_weight : window.time;
   }
   double total_weight(int k) const { return k < layout_.kinetic ? kinetic_weight_ : time_; }
-
-  // The averages per area, with number k as the variable.
-  std::vector<Dual> along(int variable) const {
-    std::vector<Dual> averages;
-    for (int k = 0; k < layout_.size; ++k) {
-      averages.emplace_back(totals_[k] / (total_weight(k) * measure_), k == variable ? 1.0 : 0.0);
-    }
-    return averages;
-  }
 
   std::span<const CellSums> windows_;
   const MomentLayout<D>& layout_;
@@ -106,9 +114,8 @@ Profile profile_of(std::span<const CellSums> windows, const FieldGrid<D>& grid,
   for (int i = 0; i <= columns; ++i) profile.edges.push_back(length * i / columns);
   for (int i = 0; i < columns; ++i) {
     const Column<D> column(windows, layout, static_cast<std::size_t>(i), measure);
-    for (std::size_t f = 0; f < fields.size(); ++f) {
-      profile.values[f].push_back(column.estimate(fields[f]));
-    }
+    const std::vector<Estimate> estimates = column.estimates(fields);
+    for (std::size_t f = 0; f < fields.size(); ++f) profile.values[f].push_back(estimates[f]);
   }
   return profile;
 }

@@ -34,6 +34,12 @@ static std::vector<Field> averages_in(const View& view, int dimension) {
 }
 
 template <int D>
+std::string LiveField<D>::species_of(const Simulation<D>& simulation, const View& view) {
+  if (!view.field || view.field->species == Field::kNone) return {};
+  return simulation.model().species->name(static_cast<std::size_t>(view.field->species));
+}
+
+template <int D>
 std::optional<typename LiveField<D>::Averages> LiveField<D>::averages_for(
     const Simulation<D>& simulation, const View& view) {
   const std::vector<Field> fields = averages_in(view, D);
@@ -55,6 +61,7 @@ std::optional<typename LiveField<D>::Closure> LiveField<D>::closure_for(
 template <int D>
 LiveField<D>::LiveField(Simulation<D>& simulation, const View& view)
     : field_(view.field),
+      species_(species_of(simulation, view)),
       arrows_(view.arrows),
       averages_(averages_for(simulation, view)),
       closure_(closure_for(simulation, view)),
@@ -67,6 +74,7 @@ LiveField<D>::LiveField(Simulation<D>& simulation, const View& view)
 template <int D>
 LiveField<D>::LiveField(Simulation<D>& simulation, const View& view, LiveField&& before)
     : field_(view.field),
+      species_(species_of(simulation, view)),
       arrows_(view.arrows),
       averages_(averages_for(simulation, view)),
       closure_(closure_for(simulation, view)),
@@ -87,6 +95,7 @@ LiveField<D>::LiveField(Simulation<D>& simulation, const View& view, LiveField&&
 template <int D>
 LiveField<D>::LiveField(Simulation<D>& simulation, const View& view, ArchiveReader saved)
     : field_(view.field),
+      species_(species_of(simulation, view)),
       arrows_(view.arrows),
       averages_(averages_for(simulation, view)),
       closure_(closure_for(simulation, view)),
@@ -108,8 +117,8 @@ std::string LiveField<D>::save() {
 template <int D>
 template <class Archive>
 void LiveField<D>::visit(Archive& io) {
-  auto& [field, arrows, averages, closure, start, closed, sampled_from, samples, of_averages,
-         of_closure, timers] = *this;
+  auto& [field, species, arrows, averages, closure, start, closed, sampled_from, samples,
+         of_averages, of_closure, timers] = *this;
   if (averages) io(averages->observer, averages->sums);
   if (closure) io(closure->observer, closure->sums);
   io(start, closed, sampled_from, samples);
@@ -206,6 +215,7 @@ void LiveField<D>::publish(Snapshot& snapshot) {
   const MomentLayout<D>& layout = averages_->observer.layout();
   if (field_ && !closure_) {
     snapshot.field = field_map(*field_, sums, grid, layout);
+    snapshot.field->species = species_;
     snapshot.field->whole_window = averages_->sums.whole();
   }
   if (arrows_) snapshot.arrows = arrow_map(*arrows_, sums, grid, layout);

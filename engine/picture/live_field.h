@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "engine/checkpoint/archive.h"
 #include "engine/measure/balance.h"
@@ -52,12 +53,14 @@ class LiveField {
 
   template <class Archive>
   void visit(Archive& io);
+  static std::string species_of(const Simulation<D>& simulation, const View& view);
   static std::optional<Averages> averages_for(const Simulation<D>& simulation, const View& view);
   static std::optional<Closure> closure_for(const Simulation<D>& simulation, const View& view);
   bool samples(const View& view) const;
   void watch(Simulation<D>& simulation, const View& view);
 
   std::optional<Field> field_;
+  std::string species_;  // name of the field's species
   std::optional<Quantity> arrows_;
   std::optional<Averages> averages_;  // present with arrows, or if the field is an average
   std::optional<Closure> closure_;    // present if the field is a residual

@@ -108,8 +108,8 @@ ChangedDimension change_dimension(const Scene& scene, int dimension) {
   View& view = made.view;
   remove_if(flat && (view.colour_by == ColourBy::VelocityZ || view.colour_by == ColourBy::Depth),
             "view.colour_by", [&] { view.colour_by = ColourBy::Speed; });
-  remove_if(view.field && !is_among(*view.field, field_names(dimension)), "view.field",
-            [&] { view.field.reset(); });
+  remove_if(view.field && !is_among(*view.field, field_names(dimension, names_of(made.species))),
+            "view.field", [&] { view.field.reset(); });
   remove_if(flat && view.slab, "view.slab", [&] { view.slab.reset(); });
   remove_if(flat && !view.slices.empty(), "view.slices", [&] { view.slices.clear(); });
   remove_if(flat && view.volume > 0.0, "view.volume", [&] { view.volume = 0.0; });

@@ -94,6 +94,7 @@ std::vector<Field> fields_of(Quantity quantity, int dimension) {
 std::vector<Field> all_fields(int dimension) {
   std::vector<Field> all;
   for (const QuantityTraits& traits : kQuantities) {
+    if (of_species_alone(traits.quantity)) continue;
     const std::vector<Field> fields = fields_of(traits.quantity, dimension);
     all.insert(all.end(), fields.begin(), fields.end());
   }
@@ -106,9 +107,17 @@ std::vector<Field> residual_fields(int dimension) {
   return fields;
 }
 
-std::vector<NamedField> field_names(int dimension) {
+std::vector<NamedField> field_names(int dimension, const std::vector<std::string>& species) {
   std::vector<NamedField> names;
   for (const Field field : all_fields(dimension)) names.emplace_back(name_of(field), field);
+  for (std::size_t s = 0; s < species.size(); ++s) {
+    for (const QuantityTraits& traits : kQuantities) {
+      if (!has_species(traits.quantity)) continue;
+      for (const Field field : fields_of(traits.quantity, dimension)) {
+        names.emplace_back(name_of(field, species[s]), field.of(s));
+      }
+    }
+  }
   return names;
 }
 

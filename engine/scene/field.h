@@ -16,6 +16,7 @@ enum class Quantity : std::uint8_t {
   Stress,           ///< sigma, minus the pressure tensor; xy: y momentum through a face normal to x
   HeatFlux,         ///< q, relative to V
   Dissipation,      ///< zeta <= 0, energy gain in collisions of particles per time and area
+  Drag,             ///< momentum that a species gains from others, per time and area (theory 12.21)
   Spin,             ///< mean angular velocity
   SpinTemperature,  ///< T_rot = I <omega^2>, the mean over the components of omega
   BalanceMass,      ///< residual of a balance (theory 9.1-9.3), relative to the bookings
@@ -69,9 +70,10 @@ enum class Sign : std::uint8_t { Positive, Negative, Either };
 
 /// Source of a quantity's values.
 enum class Kind : std::uint8_t {
-  Average,      ///< over particles and collisions
-  SpinAverage,  ///< over particles that spin
-  Residual      ///< of a balance equation
+  Average,         ///< over particles and collisions
+  SpinAverage,     ///< over particles that spin
+  SpeciesAverage,  ///< over particles of one species of a mixture; of all it is 0
+  Residual         ///< of a balance equation
 };
 
 /// A unit as powers of mass, length and time.
@@ -95,7 +97,7 @@ struct QuantityTraits {
 
 /// The quantities in the order of Quantity, which is also the order in files. Particles repel each
 /// other, so pressure is positive and normal stress negative.
-inline constexpr std::array<QuantityTraits, 11> kQuantities = {{
+inline constexpr std::array<QuantityTraits, 12> kQuantities = {{
     {.quantity = Quantity::Density,
      .name = "density",
      .title = "density ρ",
@@ -130,6 +132,13 @@ inline constexpr std::array<QuantityTraits, 11> kQuantities = {{
      .title = "dissipation ζ",
      .unit = {.mass = 1, .length = 2, .time = -3, .per_volume = true},
      .sign = Sign::Negative},
+    {.quantity = Quantity::Drag,
+     .name = "drag",
+     .title = "drag f",
+     .unit = {.mass = 1, .length = 1, .time = -2, .per_volume = true},
+     .sign = Sign::Either,
+     .rank = Rank::Vector,
+     .kind = Kind::SpeciesAverage},
     {.quantity = Quantity::Spin,
      .name = "spin",
      .title = "mean spin ω",
@@ -185,10 +194,15 @@ constexpr bool of_spins(Field field) {
   return traits_of(field.quantity).kind == Kind::SpinAverage;
 }
 
-/// Whether a quantity is also one of each species of a mixture: density, velocity and temperature.
+/// Whether a quantity is one of each species of a mixture alone, not of all particles.
+constexpr bool of_species_alone(Quantity quantity) {
+  return traits_of(quantity).kind == Kind::SpeciesAverage;
+}
+
+/// Whether a quantity is one of each species of a mixture: density, velocity, temperature and drag.
 constexpr bool has_species(Quantity quantity) {
   return quantity == Quantity::Density || quantity == Quantity::Velocity ||
-         quantity == Quantity::Temperature;
+         quantity == Quantity::Temperature || of_species_alone(quantity);
 }
 
 /// Signs of the values of a field.
@@ -221,14 +235,14 @@ std::string joint_name_of(Field field);
 /// All components of a quantity and of its parts in D dimensions, in the order of files.
 std::vector<Field> fields_of(Quantity quantity, int dimension);
 
-/// All fields of a gas in D dimensions, in the order of files.
+/// All fields of all particles in D dimensions, in the order of files.
 std::vector<Field> all_fields(int dimension);
 
 /// The residuals, in the order of Conserved<D>.
 std::vector<Field> residual_fields(int dimension);
 
-/// All fields with their names.
-std::vector<NamedField> field_names(int dimension);
+/// The fields of all particles with their names, then those of each of these species.
+std::vector<NamedField> field_names(int dimension, const std::vector<std::string>& species = {});
 
 /// The names of fields in measure.fields, one entry per field. A name may stand for several fields.
 /// Scenes are written with the first name of a field.

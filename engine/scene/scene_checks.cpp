@@ -108,6 +108,16 @@ static void check_fields(const Scene& scene, const toml::table& root, const std:
   if (scene.view.field && of_spins(*scene.view.field)) refuse("view.field");
 }
 
+/// Throws if a field of species is requested in a gas without any.
+static void check_drag(const Scene& scene, const toml::table& root, const std::string& file) {
+  const bool drag = std::ranges::any_of(
+      scene.measure.fields, [](Field field) { return of_species_alone(field.quantity); });
+  if (!drag || !scene.species.empty()) return;
+  throw UserError(place_of(root, "measure.fields", file),
+                  "\"drag\" is the force on a species by the others, and there is none",
+                  "add [[species]], or remove it");
+}
+
 /// Throws if a Gaussian kernel is used with the exact estimator, or is too narrow for the cells.
 static void check_kernel(const Scene& scene, const toml::table& root, const std::string& file) {
   const Measure& measure = scene.measure;
@@ -371,6 +381,7 @@ void check_scene(const Scene& scene, const toml::table& root, const std::string&
   check_fields(scene, root, file);
   check_kernel(scene, root, file);
   check_equal_diameters(scene, root, file);
+  check_drag(scene, root, file);
   check_species_fields(scene, root, file);
   check_observables(scene, root, file);
   check_camera(scene, root, file);

@@ -198,8 +198,8 @@ static std::string written(const Scene& scene, bool spins) {
   if (scene.species.empty()) input.count = scene.particles.count;
   for (const Species& one : scene.species) {
     input.species.push_back({.count = one.count, .packing_fraction = {}, .species = one});
-    input.species_names.push_back(one.name);
   }
+  input.species_names = names_of(scene.species);
   if (!spins) hide_spins(input.scene);
   Writer writer;
   visit_scene(writer, input);

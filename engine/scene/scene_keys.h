@@ -87,7 +87,7 @@ void visit_scene(Visitor& io, SceneInput& input) {
     io.value(kCollapseKeys.at("contact_time"), scene.contact_time, above(0.0));
   });
   io.table("measure", [&](auto& io) { visit_measure(io, scene.measure, dimension); });
-  io.table("view", [&](auto& io) { visit_view(io, scene.view, dimension); });
+  io.table("view", [&](auto& io) { visit_view(io, scene.view, dimension, input.species_names); });
   io.list("change", scene.changes,
           [&](auto& io, Change& change) { visit_change(io, change, input.species_names); });
 }

@@ -177,9 +177,7 @@ std::uint32_t Reader<D>::species_in(const CsvCell& cell) const {
   if (const auto number = find_species(scene_.species, cell.text)) {
     return static_cast<std::uint32_t>(*number);
   }
-  std::vector<std::string> names;
-  for (const Species& one : scene_.species) names.push_back(one.name);
-  refuse_species(place_of(cell), cell.text, names);
+  refuse_species(place_of(cell), cell.text, clatter::names_of(scene_.species));
 }
 
 // What a particle of a mixture is. Particles of a species have its diameter, unless it has unequal

@@ -129,7 +129,9 @@ inline constexpr auto kViewKeys = key_table(
     {{"colour_by", "",
       "Quantity that colours the particles. Spin needs rough particles or walls, and species "
       "`[[species]]`."},
-     {"field", "", "Field of the heatmap below the particles. Without a value there is none."},
+     {"field", "",
+      "Field of the heatmap below the particles, in a mixture also of one species. Without a value "
+      "there is none."},
      {"window", "t",
       "Averaging time of the heatmap and the arrows. Profiles beside films have windows of an "
       "eighth of it."},
@@ -187,12 +189,12 @@ inline constexpr auto kViewKeys = key_table(
       "coefficient at the end of the colour range. Smaller magnitudes are more transparent, and "
       "cells without a value are empty. 0: no volume. With a volume there is no default slice."}});
 
-/// The keys of [view] in a box of this dimension. The list comes last, because a file has it below
-/// the other keys.
+/// The keys of [view] in a box of this dimension, with the names of species. The list comes last,
+/// because a file has it below the other keys.
 template <class Visitor>
-void visit_view(Visitor& io, View& view, int dimension) {
+void visit_view(Visitor& io, View& view, int dimension, const std::vector<std::string>& species) {
   io.choice(kViewKeys.at("colour_by"), view.colour_by, kColourings);
-  io.choice(kViewKeys.at("field"), view.field, field_names(dimension));
+  io.choice(kViewKeys.at("field"), view.field, field_names(dimension, species));
   const Limits times = between(kMinViewTime, kMaxViewTime);
   io.value(kViewKeys.at("window"), view.window, times);
   io.choice(kViewKeys.at("estimator"), view.estimator, kEstimators);

@@ -67,4 +67,14 @@ TEST_CASE("Label: every field has its title, the axes of its component and its u
   CHECK(found == rows.size());
 }
 
+TEST_CASE("Label: a field of a species has its name after the component") {
+  const Field temperature = Field(Quantity::Temperature).of(1);
+  CHECK(label_of(temperature, 2, "heavy").subscript == "heavy");
+  CHECK(label_of(Field(Quantity::Temperature, 1).of(1), 2, "heavy").subscript == "y heavy");
+  const Label drag = label_of(Field(Quantity::Drag, 0).of(0), 3, "light");
+  CHECK(drag.name == "drag f");
+  CHECK(drag.subscript == "x light");
+  CHECK(drag.unit == "m/(a² t²)");
+}
+
 }  // namespace clatter

@@ -22,11 +22,12 @@ namespace {
 
 constexpr std::size_t kSpecies = 3;  // of mixed_gas
 
-/// Density, velocity and temperature of the gas and of each species.
+/// Density, velocity, temperature and drag of the gas and of each species.
 template <int D>
 std::vector<Field> species_fields() {
   std::vector<Field> fields;
-  for (const Quantity quantity : {Quantity::Density, Quantity::Velocity, Quantity::Temperature}) {
+  for (const Quantity quantity :
+       {Quantity::Density, Quantity::Velocity, Quantity::Temperature, Quantity::Drag}) {
     for (const Field field : fields_of(quantity, D)) {
       fields.push_back(field);
       for (std::size_t s = 0; s < kSpecies; ++s) fields.push_back(field.of(s));
@@ -183,13 +184,78 @@ TEST_CASE_TEMPLATE("Species fields: the flow of a species moves its mean place",
   }
 }
 
+// Disks of the masses 1 and 3 collide head-on, each in its own cell. The momentum exchanged is
+// twice the reduced mass times the velocity of approach: 1.5.
+TEST_CASE("Species fields: drag is the momentum that a species gains, where it gains it") {
+  const std::vector<Grain> grains = {{.species = 0}, {.mass = 3.0, .species = 1}};
+  Model<2> model = periodic_box(8.0, 4.0);
+  model.species = SpeciesLaws<2>{.pairs = std::vector<PairLaw>(4), .walls = {2, model.walls}};
+  Simulation<2> simulation(model, State<2>{.positions = {{2.5, 1.0}, {4.5, 1.0}},
+                                           .velocities = {{1.0, 0.0}, {0.0, 0.0}},
+                                           .grains = grains});
+  const std::vector<Field> fields = {Field(Quantity::Drag, 0).of(0), Field(Quantity::Drag, 0).of(1),
+                                     Field(Quantity::Drag, 1).of(1)};
+  CellIntegrals<2> cells(simulation, {2, 1}, moment_layout<2>(fields, false, true));
+  simulation.add_observer(cells);
+  simulation.run_until(3.0);
+  const CellSums sums = cells.close_window();
+  const auto drag = [&](std::size_t cell, std::size_t field) {
+    return field_value(fields[field],
+                       averages_of(cells.layout(), sums, cell, 16.0, fields[field].species));
+  };
+  CHECK(drag(0, 0) == doctest::Approx(-1.5 / (16.0 * 3.0)));
+  CHECK(drag(1, 1) == doctest::Approx(1.5 / (16.0 * 3.0)));
+  for (const auto& [cell, field] : {std::pair(1, 0), {0, 1}, {0, 2}, {1, 2}}) {
+    CHECK(drag(static_cast<std::size_t>(cell), static_cast<std::size_t>(field)) == 0.0);
+  }
+}
+
+// Without walls, gravity and kicks only the other species change the momentum of a species.
+TEST_CASE_TEMPLATE("Species fields: drag over the box changes the momentum of a species", Dimension,
+                   Plane, Space) {
+  constexpr int D = Dimension::value;
+  const Model<D> model = rough(inelastic(periodic_box<D>(Vec<D>::Constant(9.0)), 0.8), 0.5, 0.5);
+  Simulation<D> simulation(with_species(model), mixed_gas(model, 40, 66, 2.0));
+  CellIntegrals<D> cells(simulation, few_cells<D>(),
+                         moment_layout<D>(species_fields<D>(), true, true));
+  simulation.add_observer(cells);
+  const auto momenta = [&] {
+    const State<D> state = simulation.state();
+    std::vector<Vec<D>> sums(kSpecies, Vec<D>::Zero());
+    for (std::size_t i = 0; i < state.velocities.size(); ++i) {
+      sums[state.grains[i].species] += state.grains[i].mass * state.velocities[i];
+    }
+    return sums;
+  };
+  constexpr double kEnd = 60.0;
+  const std::vector<Vec<D>> before = momenta();
+  simulation.run_until(kEnd);
+  REQUIRE(simulation.counts().pair_collisions > 100);
+  const std::vector<Vec<D>> after = momenta();
+  const CellSums sums = cells.close_window();
+  for (std::size_t s = 0; s < kSpecies; ++s) {
+    for (int k = 0; k < D; ++k) {
+      double gained = 0.0;
+      for (std::size_t cell = 0; cell < cells.grid().size(); ++cell) {
+        const Field drag = Field(Quantity::Drag, k).of(s);
+        gained +=
+            kEnd * field_value(drag, averages_of(cells.layout(), sums, cell, 1.0, drag.species));
+      }
+      CAPTURE(s);
+      CAPTURE(k);
+      CHECK(std::fabs(gained) > 1e-3);
+      CHECK(gained == doctest::Approx(after[s][k] - before[s][k]).epsilon(1e-11));
+    }
+  }
+}
+
 TEST_CASE("Species fields: a measurement has them beside the fields of the gas") {
   const auto simulation = run_of(rough_mixture(24), 64, true);
   Measure measure;
   measure.burn_in = 0.0;
   measure.cells = {5, 4};
   measure.fields = {Quantity::Density, Field(Quantity::Temperature, 0),
-                    Field(Quantity::Stress, 0, 0)};
+                    Field(Quantity::Stress, 0, 0), Field(Quantity::Drag, 0)};
   Measurement<2> measurement(*simulation, measure, 20.0);
   simulation->run_until(20.0);
   const Measured result = measurement.result();
@@ -200,8 +266,8 @@ TEST_CASE("Species fields: a measurement has them beside the fields of the gas")
   }
   for (const FieldMap& map : result.maps->maps) maps.push_back(name_of(map));
   const std::vector<std::string> expected = {
-      "density",   "temperature_x",   "stress_xx", "density_0",      "temperature_x_0",
-      "density_1", "temperature_x_1", "density_2", "temperature_x_2"};
+      "density",   "temperature_x",   "stress_xx", "density_0", "temperature_x_0", "drag_x_0",
+      "density_1", "temperature_x_1", "drag_x_1",  "density_2", "temperature_x_2", "drag_x_2"};
   CHECK(names == expected);
   CHECK(maps == expected);
   double share = 0.0;

@@ -44,10 +44,11 @@ TEST_CASE("Field: the names are those that scripts rely on, in the order of file
         "stress_yy_collisional stress_xy_collisional heat_flux_x heat_flux_y heat_flux_x_kinetic "
         "heat_flux_y_kinetic heat_flux_x_collisional heat_flux_y_collisional dissipation spin "
         "spin_temperature balance_mass balance_momentum_x balance_momentum_y balance_energy");
-  CHECK(names_in(measured_names(2)) ==
-        "density velocity temperature_x temperature_y temperature stress stress_kinetic "
-        "stress_collisional heat_flux heat_flux_kinetic heat_flux_collisional dissipation spin "
-        "spin_temperature balance");
+  CHECK(
+      names_in(measured_names(2)) ==
+      "density velocity temperature_x temperature_y temperature stress stress_kinetic "
+      "stress_collisional heat_flux heat_flux_kinetic heat_flux_collisional dissipation drag spin "
+      "spin_temperature balance");
   const std::string in_space = names_in(field_names(3));
   CHECK(says(in_space, " stress_xx stress_yy stress_zz stress_xy stress_xz stress_yz "));
   CHECK(says(in_space, " spin_x spin_y spin_z "));
@@ -72,7 +73,7 @@ TEST_CASE("Field: a field has one name, and a name one field") {
     // All quantities can be measured.
     std::set<std::string> measured;
     for (const auto& [name, field] : measured_names(dimension)) measured.insert(name_of(field));
-    CHECK(measured.size() == fields.size());
+    CHECK(measured.size() == fields.size() + static_cast<std::size_t>(dimension));  // drag
   }
 }
 
@@ -83,6 +84,30 @@ TEST_CASE("Fields: every name reads as the field that it is written from") {
     CHECK(scene.view.field == field);
     CHECK(says(scene_to_toml(scene), "field = \"" + name + "\""));
   }
+}
+
+TEST_CASE("Fields: a heatmap shows a field of one species, by its name") {
+  const std::string species =
+      "box.size = [20, 20]\n[particles]\n[[species]]\nname = \"light\"\ncount = 3\n"
+      "[[species]]\nname = \"heavy\"\ncount = 2\nmass = 4\n[view]\n";
+  const Scene scene = parse_scene(species + "field = \"temperature_x_heavy\"\n", "s.toml");
+  CHECK(scene.view.field == Field(Quantity::Temperature, 0).of(1));
+  CHECK(says(scene_to_toml(scene), "field = \"temperature_x_heavy\""));
+  CHECK(parse_scene(species + "field = \"drag_y_light\"\n", "s.toml").view.field ==
+        Field(Quantity::Drag, 1).of(0));
+  for (const char* const unknown : {"stress_xx_heavy", "density_large", "drag_x"}) {
+    CAPTURE(unknown);
+    const std::string message =
+        field_refusal(species + "field = \"" + std::string(unknown) + "\"\n");
+    CHECK(message.starts_with("s.toml:11:"));
+    CHECK(says(message, "density_heavy"));
+  }
+}
+
+TEST_CASE("Fields: drag needs species") {
+  const std::string message = field_refusal(kRough + "measure.fields = [\"drag\"]\n");
+  CHECK(message.starts_with("s.toml:4:"));
+  CHECK(says(message, "add [[species]]"));
 }
 
 TEST_CASE("Fields: fields of spheres are refused for disks, with the reason") {
@@ -109,6 +134,7 @@ TEST_CASE("Field: units follow from the dimension") {
       {"stress", {"m/t^2", "m/(a t^2)"}},
       {"heat_flux", {"m a/t^3", "m/t^3"}},
       {"dissipation", {"m/t^3", "m/(a t^3)"}},
+      {"drag", {"m/(a t^2)", "m/(a^2 t^2)"}},
       {"spin", {"1/t", "1/t"}},
       {"spin_temperature", {"m a^2/t^2", "m a^2/t^2"}},
       {"balance_mass", {"1", "1"}},
