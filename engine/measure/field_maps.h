@@ -9,6 +9,7 @@
 #include "engine/measure/field_map.h"
 #include "engine/measure/moment_layout.h"
 #include "engine/scene/scene.h"
+#include "engine/stop_request.h"
 
 // Maps are stored as sums. The sums of a window go to the columns of the profile and to PartSums:
 // at most 64 parts of the run. Parts are joined in pairs, and so become longer with the run. Memory
@@ -25,14 +26,18 @@ struct FieldMaps {
   std::vector<FieldMap> maps;  ///< one per requested field
 };
 
-/// The map of a field from a grid's sums; NaN without a value (see field_value).
+/// The maps of fields from a grid's sums, without names of species; NaN without a value (see
+/// field_value). Throws Interrupted if the work must stop.
 template <int D>
-FieldMap field_map(Field field, const CellSums& sums, const FieldGrid<D>& grid,
-                   const MomentLayout<D>& layout);
+std::vector<FieldMap> field_maps(std::span<const Field> fields, const CellSums& sums,
+                                 const FieldGrid<D>& grid, const MomentLayout<D>& layout,
+                                 const StopRequest& stop = {});
 
-extern template FieldMap field_map(Field, const CellSums&, const FieldGrid<2>&,
-                                   const MomentLayout<2>&);
-extern template FieldMap field_map(Field, const CellSums&, const FieldGrid<3>&,
-                                   const MomentLayout<3>&);
+extern template std::vector<FieldMap> field_maps(std::span<const Field>, const CellSums&,
+                                                 const FieldGrid<2>&, const MomentLayout<2>&,
+                                                 const StopRequest&);
+extern template std::vector<FieldMap> field_maps(std::span<const Field>, const CellSums&,
+                                                 const FieldGrid<3>&, const MomentLayout<3>&,
+                                                 const StopRequest&);
 
 }  // namespace clatter

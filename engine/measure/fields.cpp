@@ -207,14 +207,21 @@ CellAverages<D, S> averages_of(const MomentLayout<D>& layout, const S* row, int 
 }
 
 template <int D>
-CellAverages<D, double> averages_of(const MomentLayout<D>& layout, const CellSums& sums,
-                                    std::size_t cell, double measure, int species) {
+void averages_row(const MomentLayout<D>& layout, const CellSums& sums, std::size_t cell,
+                  double measure, std::vector<double>& row) {
   const auto size = static_cast<std::size_t>(layout.size);
-  std::vector<double> row(size);
+  row.resize(size);
   for (std::size_t k = 0; k < size; ++k) {
     const double weight = static_cast<int>(k) < layout.kinetic ? sums.kinetic_weight : sums.time;
     row[k] = sums.rows[cell * size + k] / (weight * measure);
   }
+}
+
+template <int D>
+CellAverages<D, double> averages_of(const MomentLayout<D>& layout, const CellSums& sums,
+                                    std::size_t cell, double measure, int species) {
+  std::vector<double> row;
+  averages_row(layout, sums, cell, measure, row);
   return averages_of<D, double>(layout, row.data(), species);
 }
 
@@ -249,6 +256,10 @@ template CellAverages<2, double> averages_of(const MomentLayout<2>&, const doubl
 template CellAverages<3, double> averages_of(const MomentLayout<3>&, const double*, int);
 template CellAverages<2, Dual> averages_of(const MomentLayout<2>&, const Dual*, int);
 template CellAverages<3, Dual> averages_of(const MomentLayout<3>&, const Dual*, int);
+template void averages_row(const MomentLayout<2>&, const CellSums&, std::size_t, double,
+                           std::vector<double>&);
+template void averages_row(const MomentLayout<3>&, const CellSums&, std::size_t, double,
+                           std::vector<double>&);
 template CellAverages<2, double> averages_of(const MomentLayout<2>&, const CellSums&, std::size_t,
                                              double, int);
 template CellAverages<3, double> averages_of(const MomentLayout<3>&, const CellSums&, std::size_t,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "engine/measure/cell_integrals.h"
 #include "engine/measure/dual.h"
@@ -50,6 +51,12 @@ template <int D, class S>
 CellAverages<D, S> averages_of(const MomentLayout<D>& layout, const S* row,
                                int species = Field::kNone);
 
+/// The sums of a cell in a window, divided by time and `measure`, its area or volume: a row for
+/// averages_of().
+template <int D>
+void averages_row(const MomentLayout<D>& layout, const CellSums& sums, std::size_t cell,
+                  double measure, std::vector<double>& row);
+
 /// The averages of a cell from the sums of a window. `measure` is the cell's area or volume.
 template <int D>
 CellAverages<D, double> averages_of(const MomentLayout<D>& layout, const CellSums& sums,
@@ -69,6 +76,10 @@ extern template CellAverages<2, double> averages_of(const MomentLayout<2>&, cons
 extern template CellAverages<3, double> averages_of(const MomentLayout<3>&, const double*, int);
 extern template CellAverages<2, Dual> averages_of(const MomentLayout<2>&, const Dual*, int);
 extern template CellAverages<3, Dual> averages_of(const MomentLayout<3>&, const Dual*, int);
+extern template void averages_row(const MomentLayout<2>&, const CellSums&, std::size_t, double,
+                                  std::vector<double>&);
+extern template void averages_row(const MomentLayout<3>&, const CellSums&, std::size_t, double,
+                                  std::vector<double>&);
 extern template CellAverages<2, double> averages_of(const MomentLayout<2>&, const CellSums&,
                                                     std::size_t, double, int);
 extern template CellAverages<3, double> averages_of(const MomentLayout<3>&, const CellSums&,

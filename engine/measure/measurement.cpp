@@ -325,11 +325,8 @@ void Measurement<D>::add_maps(Measured& measured, const StopRequest& stop) const
   const FieldGrid<D> grid(simulation_.model(), cells_of<D>(measure_));
   const auto maps_of = [&](const CellSums& sums, double begin, double end) {
     FieldMaps maps{begin, end, {grid.widths().begin(), grid.widths().end()}, {}};
-    for (const Field field : fields_) {
-      stop.check();
-      maps.maps.push_back(field_map(field, sums, grid, cells_->layout()));
-      maps.maps.back().species = species_of(field);
-    }
+    maps.maps = field_maps<D>(fields_, sums, grid, cells_->layout(), stop);
+    for (FieldMap& map : maps.maps) map.species = species_of(map.field);
     return maps;
   };
   const auto time_of = [&](std::uint64_t windows) {

@@ -214,7 +214,7 @@ void LiveField<D>::publish(Snapshot& snapshot) {
   const FieldGrid<D>& grid = averages_->observer.grid();
   const MomentLayout<D>& layout = averages_->observer.layout();
   if (field_ && !closure_) {
-    snapshot.field = field_map(*field_, sums, grid, layout);
+    snapshot.field = field_maps<D>({&*field_, 1}, sums, grid, layout).front();
     snapshot.field->species = species_;
     snapshot.field->whole_window = averages_->sums.whole();
   }
