@@ -86,7 +86,15 @@ static Mixing mixing_in(const Snapshot& snapshot, std::size_t species) {
 void History::predict(const std::shared_ptr<const Scene>& scene) {
   if (!scene || scene == scene_) return;
   scene_ = scene;
-  theory_ = scene->species.empty() ? SpeciesTheory() : clatter::species_theory(*scene);
+  theory_.reset();
+}
+
+const SpeciesTheory& History::species_theory() const {
+  if (!theory_) {
+    const bool mixed = scene_ && !scene_->species.empty();
+    theory_ = mixed ? clatter::species_theory(*scene_) : SpeciesTheory();
+  }
+  return *theory_;
 }
 
 void History::add(const Frame& frame) {

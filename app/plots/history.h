@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "app/plots/species_theory.h"
@@ -98,8 +99,8 @@ class History {
   const VelocityHistogram& velocities() const { return velocities_; }
   /// The theory of a mixture is that of this scene from now on. add() does the same.
   void predict(const std::shared_ptr<const Scene>& scene);
-  /// The theory of the last scene; empty without species.
-  const SpeciesTheory& species_theory() const { return theory_; }
+  /// The theory of the last scene; empty without species. The first call for a scene computes it.
+  const SpeciesTheory& species_theory() const;
   /// The smallest time between later samples.
   double spacing() const { return spacing_; }
 
@@ -122,7 +123,7 @@ class History {
   VelocityHistogram velocities_;
   SpeciesAverages species_;
   std::shared_ptr<const Scene> scene_;  // of the theory
-  SpeciesTheory theory_;
+  mutable std::optional<SpeciesTheory> theory_;
 };
 
 }  // namespace clatter

@@ -6,14 +6,15 @@
 
 namespace clatter {
 
-/// Temperatures of species by kinetic theory (theory 12.14-12.15).
+/// Species by kinetic theory (theory 12.14-12.15, 12.22-12.23).
 struct SpeciesTheory {
   std::vector<double> temperatures;  ///< [S] NaN: the theory has none for this species
   bool relative = false;             ///< T_s/T: without kicks T depends on the past of the gas
+  std::vector<double> frictions;     ///< [S] gamma of one particle; NaN: the theory has none
+  std::vector<double> diffusions;    ///< [S] D = T/(m gamma), as Einstein found; NaN: none
 };
 
-/// The theory of a scene with species. Takes some 0.1 s for a species of unequal diameters that
-/// loses energy.
+/// The theory of a scene with species.
 SpeciesTheory species_theory(const Scene& scene);
 
 }  // namespace clatter

@@ -103,13 +103,33 @@ void add_rates(Json& json, const Scene& scene, const MixtureGas& gas,
                [&](std::size_t a, std::size_t b) { return gas.pair_rate(a, b, temperatures); });
 }
 
+// Friction and diffusion of species of one diameter, in gases without spins (theory 12.22-12.23).
+void add_diffusion(Json& json, const Scene& scene, const MixtureGas& gas,
+                   const MixtureTemperatures& in_collisions,
+                   const std::vector<double>& temperatures) {
+  if (scene.spins()) return;
+  for (std::size_t c = 0; c < gas.components.size(); ++c) {
+    const MixtureComponent& one = gas.components[c];
+    const std::string& name = scene.species[one.species].name;
+    if (one.count != gas.count_of(one.species)) continue;
+    Json& species = *std::ranges::find_if(
+        json["species"], [&](const Json& entry) { return entry.at("name") == name; });
+    const double friction = gas.friction(c, in_collisions);
+    species["friction"] = friction;
+    species["diffusion"] = temperatures[c] / (one.mass * friction);
+  }
+}
+
 // (theory 12.15): relative velocities have the variances of the temperature T N/(N - 1).
 void add_elastic(Json& json, const Scene& scene, const MixtureGas& gas) {
   const double T = scene.particles.start.temperature, count = gas.count();
   add_names(json, scene);
-  add_to_species(json, scene, gas, "temperature", gas.elastic_temperatures(T));
+  const std::vector<double> temperatures = gas.elastic_temperatures(T);
+  const MixtureTemperatures relative = gas.equal(T * count / (count - 1.0));
+  add_to_species(json, scene, gas, "temperature", temperatures);
   json["compressibility"] = gas.compressibility();
-  add_rates(json, scene, gas, gas.equal(T * count / (count - 1.0)));
+  add_rates(json, scene, gas, relative);
+  add_diffusion(json, scene, gas, relative, temperatures);
 }
 
 void add_cooling(Json& json, const Scene& scene, const MixtureGas& gas) {
@@ -148,6 +168,7 @@ void add_driven(Json& json, const Scene& scene, const MixtureGas& gas) {
   add_spins(json, gas, "spin_temperature", *driven);
   json["compressibility"] = gas.compressibility(*driven);
   add_rates(json, scene, gas, *driven);
+  add_diffusion(json, scene, gas, *driven, driven->translational);
 }
 
 }  // namespace

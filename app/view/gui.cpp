@@ -325,7 +325,11 @@ void Gui::observable_plots(float height) {
   if (std::exchange(observable_, titles[index]) != titles[index]) {
     log_.event("observable", {{"table", observable_}});
   }
-  for (const LivePlot& plot : table_plots((*tables)[index], panel_theme(shown_view()))) {
+  const Frame& frame = session_.frame();
+  const std::vector<LivePlot> plots =
+      table_plots((*tables)[index], *frame.scene, histories_.at(frame.id).species_theory(),
+                  panel_theme(shown_view()));
+  for (const LivePlot& plot : plots) {
     draw_plot(plot, height);
     ImGui::Spacing();
   }

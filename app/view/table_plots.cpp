@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "app/plots/plot_colours.h"
 #include "engine/scene/enum_names.h"
 #include "engine/text.h"
 #include "render/label.h"
+#include "render/species_colours.h"
 
 namespace clatter {
 
@@ -38,11 +40,11 @@ Abscissa abscissa_of(const ResultTable& table) {
   return middles;
 }
 
-// Whether the spacing of positive values grows with them.
+// Whether the spacing of positive values grows with them. The first one may be 0.
 bool has_growing_spacing(const std::vector<double>& values) {
   constexpr double kGrowth = 5.0;
   const std::size_t count = values.size();
-  return count > 2 && values[0] > 0.0 &&
+  return count > 2 && values[0] >= 0.0 &&
          values[count - 1] - values[count - 2] > kGrowth * (values[1] - values[0]);
 }
 
@@ -97,6 +99,39 @@ Curve curve_of(const TableColumn& column, const std::vector<double>& x, std::siz
   return curve;
 }
 
+// The species at the end of a name, as in "total_heavy"; none: the number of species.
+std::size_t species_of(const std::string& name, const std::vector<Species>& species) {
+  std::size_t number = 0;
+  while (number < species.size() && !name.ends_with("_" + species[number].name)) ++number;
+  return number;
+}
+
+std::string without_species(const std::string& name, const Species& species) {
+  return name.substr(0, name.size() - species.name.size() - 1);
+}
+
+// The velocity correlation and the squared displacement of a particle of a species (theory 12.23).
+std::optional<Curve> diffusion_curve(const ResultTable& table, const Scene& scene,
+                                     const SpeciesTheory& theory, std::size_t species,
+                                     const std::vector<double>& lags) {
+  const bool moves = table.name == "mean_squared_displacement";
+  if (!moves && table.name != "velocity_autocorrelation") return std::nullopt;
+  if (species >= theory.frictions.size() || !std::isfinite(theory.frictions[species])) {
+    return std::nullopt;
+  }
+  const double damping = theory.frictions[species], diffusion = theory.diffusions[species];
+  const std::string& name = scene.species[species].name;
+  Curve curve{.name = name + ", theory", .colour = {}, .points = {}, .dashed = true};
+  curve.help = "D = T/(m γ), Einstein's relation, with the friction γ of Enskog's theory";
+  for (const double lag : lags) {
+    const double value =
+        moves ? 2.0 * scene.dimension() * diffusion * (lag + std::expm1(-damping * lag) / damping)
+              : diffusion * damping * std::exp(-damping * lag);
+    curve.points.emplace_back(lag, value);
+  }
+  return curve;
+}
+
 // A curve for each slab, with the brighter colours of viridis along the axis. The first and the
 // last are named.
 LivePlot slab_plot(const ResultTable& table) {
@@ -130,17 +165,24 @@ std::string table_title(const ResultTable& table) {
   return title;
 }
 
-std::vector<LivePlot> table_plots(const ResultTable& table, const ThemeColours& theme) {
+std::vector<LivePlot> table_plots(const ResultTable& table, const Scene& scene,
+                                  const SpeciesTheory& theory, const ThemeColours& theme) {
   if (table.columns[0].name.ends_with("_low")) return {slab_plot(table)};
   const Abscissa abscissa = abscissa_of(table);
   const bool estimates = std::ranges::any_of(
       table.columns, [](const TableColumn& column) { return !column.standard_errors.empty(); });
+  const std::vector<Colour> colours = species_colours(scene.species, theme.background);
   std::vector<LivePlot> plots;
   std::vector<std::string> units;
   for (std::size_t k = abscissa.columns; k < table.columns.size(); ++k) {
     const TableColumn& column = table.columns[k];
     // Beside estimates, exact numbers describe the row.
     if (estimates && column.standard_errors.empty()) continue;
+    const std::size_t species = species_of(column.name, scene.species);
+    const bool of_species = species < scene.species.size();
+    const std::size_t axis =
+        axis_of(of_species ? without_species(column.name, scene.species[species]) : column.name);
+    if (of_species && axis < kAxes.size()) continue;  // too many for one plot
     const auto plot =
         static_cast<std::size_t>(std::ranges::find(units, column.unit) - units.begin());
     if (plot == units.size()) {
@@ -153,9 +195,15 @@ std::vector<LivePlot> table_plots(const ResultTable& table, const ThemeColours& 
                        typeset(column.unit)});
     }
     Curve curve = curve_of(column, abscissa.values, 0, abscissa.values.size());
-    const std::size_t axis = axis_of(column.name);
-    curve.colour = axis < kAxes.size() ? kAxisColours[axis] : theme.text;
+    curve.colour = of_species            ? colours[species]
+                   : axis < kAxes.size() ? kAxisColours[axis]
+                                         : theme.text;
     plots[plot].curves.push_back(std::move(curve));
+    if (!of_species) continue;
+    auto expected = diffusion_curve(table, scene, theory, species, abscissa.values);
+    if (!expected) continue;
+    expected->colour = colours[species];
+    plots[plot].curves.push_back(std::move(*expected));
   }
   for (LivePlot& plot : plots) {
     plot.log_y = has_wide_range(plot.curves);

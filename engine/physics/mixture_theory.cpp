@@ -197,14 +197,28 @@ double MixtureGas::compressibility(const MixtureTemperatures& temperatures) cons
   return 1.0 + solid_angle(dimension) / (2.0 * dimension) * sum / (volume * of_all);
 }
 
-double MixtureGas::collision_rate(std::size_t component, std::size_t other,
-                                  const MixtureTemperatures& temperatures) const {
+double MixtureGas::rate_factor(std::size_t component, std::size_t other) const {
   const MixtureComponent &a = components[component], &b = components[other];
-  const std::vector<double>& T = temperatures.translational;
   const double distance = 0.5 * (a.diameter + b.diameter);
   return solid_angle(dimension) * power_of(distance, dimension) / distance *
-         contact_correlation(a.diameter, b.diameter) * partners(a, b) / volume *
-         std::sqrt(relative_variance(a, T[component], b, T[other]) / (2.0 * pi));
+         contact_correlation(a.diameter, b.diameter) * partners(a, b) / volume /
+         std::sqrt(2.0 * pi);
+}
+
+std::vector<double> MixtureGas::rate_factors() const {
+  std::vector<double> factors;
+  for (std::size_t s = 0; s < components.size(); ++s) {
+    for (std::size_t t = 0; t < components.size(); ++t) factors.push_back(rate_factor(s, t));
+  }
+  return factors;
+}
+
+double MixtureGas::collision_rate(std::size_t component, std::size_t other,
+                                  const MixtureTemperatures& temperatures) const {
+  const std::vector<double>& T = temperatures.translational;
+  return rate_factor(component, other) *
+         std::sqrt(
+             relative_variance(components[component], T[component], components[other], T[other]));
 }
 
 double MixtureGas::pair_rate(std::size_t first, std::size_t second,
@@ -220,7 +234,23 @@ double MixtureGas::pair_rate(std::size_t first, std::size_t second,
   return first == second ? 0.5 * sum : sum;
 }
 
+double MixtureGas::friction(std::size_t component, const MixtureTemperatures& temperatures) const {
+  const MixtureComponent& one = components[component];
+  double damping = 0.0;
+  for (std::size_t t = 0; t < components.size(); ++t) {
+    const double share = reduced_mass(one, components[t]) / one.mass;
+    damping += 2.0 * (1.0 + contact(one, components[t]).restitution) / dimension * share *
+               collision_rate(component, t, temperatures);
+  }
+  return damping * mass() / (mass() - one.mass);
+}
+
 MixtureTemperatures MixtureGas::changes(const MixtureTemperatures& temperatures) const {
+  return changes(temperatures, rate_factors());
+}
+
+MixtureTemperatures MixtureGas::changes(const MixtureTemperatures& temperatures,
+                                        const std::vector<double>& rate_factors) const {
   const std::vector<double>&T = temperatures.translational, &R = temperatures.rotational;
   MixtureTemperatures changes = equal(0.0);
   for (std::size_t s = 0; s < components.size(); ++s) {
@@ -228,7 +258,8 @@ MixtureTemperatures MixtureGas::changes(const MixtureTemperatures& temperatures)
       const EnergyGains gains =
           energy_gains(components[s], components[t], contact(components[s], components[t]),
                        dimension, {T[s], T[t]}, {R[s], R[t]});
-      const double rate = collision_rate(s, t, temperatures);
+      const double rate = rate_factors[s * components.size() + t] *
+                          std::sqrt(relative_variance(components[s], T[s], components[t], T[t]));
       changes.translational[s] += 2.0 / dimension * rate * gains.translation;
       changes.rotational[s] += 2.0 / (2 * dimension - 3) * rate * gains.spin;
     }
@@ -290,9 +321,10 @@ std::optional<MixtureCooling> MixtureGas::cooling() const {
     for (double& one : temperatures.rotational) one /= T;
     return temperatures;
   };
+  const std::vector<double> factors = rate_factors();
   const auto slope = [&](const Eigen::VectorXd& y) -> Eigen::VectorXd {
     const MixtureTemperatures temperatures = at_unit_mean(y);
-    const MixtureTemperatures change = changes(temperatures);
+    const MixtureTemperatures change = changes(temperatures, factors);
     const Eigen::VectorXd relative = unknowns.of(change).cwiseQuotient(unknowns.of(temperatures));
     return relative.array() - mean(change.translational);
   };
@@ -313,9 +345,10 @@ std::optional<MixtureTemperatures> MixtureGas::driven(const MixtureTemperatures&
   const double gain = mean(heating.translational) + mean(heating.rotational);
   if (!(loss > 0.0) || !(gain > 0.0)) return std::nullopt;
   const double unit = std::pow(gain / loss, 2.0 / 3.0);
+  const std::vector<double> factors = rate_factors();
   const auto slope = [&](const Eigen::VectorXd& y) -> Eigen::VectorXd {
     const MixtureTemperatures temperatures = unknowns.temperatures(y);
-    return (unknowns.of(changes(temperatures)) + unknowns.of(heating))
+    return (unknowns.of(changes(temperatures, factors)) + unknowns.of(heating))
         .cwiseQuotient(unknowns.of(temperatures));
   };
   const auto size = static_cast<Eigen::Index>(components.size() + unknowns.spinning.size());

@@ -75,6 +75,9 @@ struct MixtureGas {
   /// Collisions between two species per time, of all particles.
   double pair_rate(std::size_t first, std::size_t second,
                    const MixtureTemperatures& temperatures) const;
+  /// gamma, rate at which smooth collisions damp the velocity of one particle of a component
+  /// relative to the others (theory 12.22).
+  double friction(std::size_t component, const MixtureTemperatures& temperatures) const;
   /// Whether collisions change the spins of a component.
   bool spins(std::size_t component) const;
   /// Changes of all temperatures per time by collisions (theory 12.14).
@@ -94,6 +97,11 @@ struct MixtureGas {
   std::vector<double> elastic_temperatures(double temperature) const;
 
  private:
+  // nu over the root of the variance of the relative velocity, which does not depend on T.
+  double rate_factor(std::size_t component, std::size_t other) const;
+  std::vector<double> rate_factors() const;  // [components x components]
+  MixtureTemperatures changes(const MixtureTemperatures& temperatures,
+                              const std::vector<double>& rate_factors) const;
   double partners(const MixtureComponent& first, const MixtureComponent& second) const;
   const MixtureContact& contact(const MixtureComponent& first,
                                 const MixtureComponent& second) const;

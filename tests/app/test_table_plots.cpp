@@ -10,12 +10,17 @@
 
 namespace clatter {
 
+/// The plots of a table of a gas without species.
+static std::vector<LivePlot> plots_of_table(const ResultTable& table, const ThemeColours& theme) {
+  return table_plots(table, Scene(), SpeciesTheory(), theme);
+}
+
 TEST_CASE("Plots: a histogram with logarithmic bins is over their middles") {
   const ResultTable table = {"wall_hits.left.incoming",
                              {{"low", "a/t", {1.0, 2.0, 8.0}},
                               {"high", "a/t", {2.0, 8.0, 64.0}},
                               {"density", "1/(a/t)", {1.0, 0.5, 1e-3}, {0.1, 0.2, NAN}}}};
-  const std::vector<LivePlot> plots = table_plots(table, kDarkTheme);
+  const std::vector<LivePlot> plots = plots_of_table(table, kDarkTheme);
   REQUIRE(plots.size() == 1);
   CHECK(plots[0].title == "wall hits, left, incoming");
   check_axes(plots[0], "value in a/t", "1/(a/t)", true, true);
@@ -30,16 +35,16 @@ TEST_CASE("Plots: a histogram with logarithmic bins is over their middles") {
 TEST_CASE("Plots: a table has a plot for each unit, with the colours of the axes") {
   // Lags of growing spacing; a value that is missing has no point.
   const ResultTable table = {"mean_squared_displacement",
-                             {{"time", "t", {0.1, 0.2, 3.0, 30.0}},
+                             {{"time", "t", {0.0, 0.2, 3.0, 30.0}},
                               {"total", "a^2", {1.0, NAN, 3.0, 400.0}, {0.1, 0.1, 0.1, 0.1}},
                               {"y", "a^2", {0.5, 0.5, 0.5, 0.5}, {0.1, 0.1, 0.1, 0.1}},
                               {"drift_x", "a", {-1.0, 0.0, 1.0, 2.0}, {0.1, 0.1, 0.1, 0.1}}}};
-  const std::vector<LivePlot> plots = table_plots(table, kLightTheme);
+  const std::vector<LivePlot> plots = plots_of_table(table, kLightTheme);
   REQUIRE(plots.size() == 2);
   check_axes(plots[0], "time in t", "a²", true, true);
   check_axes(plots[1], "time in t", "a", true, false);
   CHECK(curve_of(plots[0], "total").points ==
-        std::vector<Vec2>{{0.1, 1.0}, {3.0, 3.0}, {30.0, 400.0}});
+        std::vector<Vec2>{{0.0, 1.0}, {3.0, 3.0}, {30.0, 400.0}});
   CHECK(curve_of(plots[0], "total").colour == kLightTheme.text);
   CHECK(curve_of(plots[0], "y").colour == Colour{86, 180, 233});
   CHECK(curve_of(plots[1], "drift x").colour == Colour{230, 159, 0});
@@ -51,18 +56,18 @@ TEST_CASE("Plots: a logarithmic axis leaves out values with large errors") {
                         {"high", "1", {0.0, 1.0, 2.0}},
                         {"density", "1", {1.0, 3e-3, 4e-3}, {0.1, 2e-3, 1e-3}}}};
   using Points = std::vector<Vec2>;
-  CHECK(table_plots(table, kDarkTheme)[0].curves[0].points == Points{{-0.5, 1.0}, {1.5, 4e-3}});
+  CHECK(plots_of_table(table, kDarkTheme)[0].curves[0].points == Points{{-0.5, 1.0}, {1.5, 4e-3}});
   table.columns[2].values[0] = 0.1;
-  CHECK(table_plots(table, kDarkTheme)[0].curves[0].points.size() == 3);
+  CHECK(plots_of_table(table, kDarkTheme)[0].curves[0].points.size() == 3);
 }
 
 TEST_CASE("Plots: exact columns are plotted only where a table has no estimates") {
   ResultTable table = {
       "structure_factor",
       {{"k", "1/a", {1.0, 2.0}}, {"vectors", "1", {4.0, 8.0}}, {"S", "1", {0.2, 0.3}, {0.1, 0.1}}}};
-  CHECK(table_plots(table, kDarkTheme)[0].curves.size() == 1);
+  CHECK(plots_of_table(table, kDarkTheme)[0].curves.size() == 1);
   table.columns[2].standard_errors.clear();
-  CHECK(table_plots(table, kDarkTheme)[0].curves.size() == 2);
+  CHECK(plots_of_table(table, kDarkTheme)[0].curves.size() == 2);
 }
 
 TEST_CASE("Plots: slabs have a curve each, the first and the last with names") {
@@ -71,7 +76,7 @@ TEST_CASE("Plots: slabs have a curve each, the first and the last with names") {
                               {"y_high", "a", {2.5, 2.5, 4.5, 4.5, 6.5, 6.5}},
                               {"r", "a", {1.1, 1.3, 1.1, 1.3, 1.1, 1.3}},
                               {"g", "1", {2.0, 1.0, 3.0, 1.5, 4.0, 1.8}, {1, 2, 3, 4, 5, 6}}}};
-  const std::vector<LivePlot> plots = table_plots(table, kDarkTheme);
+  const std::vector<LivePlot> plots = plots_of_table(table, kDarkTheme);
   REQUIRE(plots.size() == 1);
   check_axes(plots[0], "r in a", "g", false, false);
   REQUIRE(plots[0].curves.size() == 3);
@@ -80,6 +85,39 @@ TEST_CASE("Plots: slabs have a curve each, the first and the last with names") {
   CHECK(plots[0].curves[1].errors == std::vector<double>{3.0, 4.0});
   CHECK(curve_of(plots[0], "y = 4.5 to 6.5").points == std::vector<Vec2>{{1.1, 4.0}, {1.3, 1.8}});
   CHECK_FALSE(plots[0].curves[0].colour == plots[0].curves[2].colour);
+}
+
+// At gamma = 2 and D = 3 the velocity correlation is D gamma exp(-gamma t), and the squared
+// displacement its double integral: 4 D (t - (1 - exp(-gamma t))/gamma).
+TEST_CASE("Plots: a species has its colour, and theory beside its diffusion") {
+  Scene scene;
+  scene.species.resize(2);
+  scene.species[0].name = "light";
+  scene.species[0].colour = Rgb{1, 2, 3};
+  scene.species[1].name = "heavy";
+  scene.species[1].colour = Rgb{4, 5, 6};
+  const SpeciesTheory theory = {{1.0, 1.0}, true, {NAN, 2.0}, {NAN, 3.0}};
+  const ResultTable table = {"mean_squared_displacement",
+                             {{"time", "t", {0.0, 0.5, 1.0}},
+                              {"total", "a^2", {0.0, 2.0, 4.0}},
+                              {"total_light", "a^2", {0.0, 3.0, 5.0}},
+                              {"x_light", "a^2", {0.0, 1.0, 2.0}},
+                              {"total_heavy", "a^2", {0.0, 2.2, 6.8}}}};
+  const LivePlot plot = table_plots(table, scene, theory, kDarkTheme).at(0);
+  REQUIRE(plot.curves.size() == 4);  // none along the axes of a species
+  CHECK(curve_of(plot, "total").colour == kDarkTheme.text);
+  CHECK(curve_of(plot, "total light").colour == Colour{1, 2, 3});
+  const Curve& einstein = curve_of(plot, "heavy, theory");
+  CHECK(einstein.dashed);
+  CHECK(einstein.colour == Colour{4, 5, 6});
+  CHECK(einstein.points[0].y() == 0.0);
+  CHECK(einstein.points[1].y() == doctest::Approx(12.0 * (0.5 - 0.5 * (1.0 - std::exp(-1.0)))));
+  const ResultTable velocities = {
+      "velocity_autocorrelation",
+      {{"time", "t", {0.0, 1.0}}, {"mean_heavy", "a^2/t^2", {6.0, 1.0}}}};
+  const LivePlot decay = table_plots(velocities, scene, theory, kDarkTheme).at(0);
+  CHECK(curve_of(decay, "heavy, theory").points[0].y() == doctest::Approx(6.0));
+  CHECK(curve_of(decay, "heavy, theory").points[1].y() == doctest::Approx(6.0 * std::exp(-2.0)));
 }
 
 TEST_CASE("Plots: the copied numbers of a plot are its curves, a table each") {

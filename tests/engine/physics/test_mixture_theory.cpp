@@ -277,4 +277,27 @@ TEST_CASE("Mixture theory: Z of polydisperse disks") {
   CHECK(gas.compressibility() == doctest::Approx(2.7436).epsilon(3e-4));
 }
 
+// Enskog's coefficients of self-diffusion: of disks 1/(2 n d chi) sqrt(T/(pi m)), and of
+// spheres 3/(8 n d^2 chi) sqrt(T/(pi m)) (Chapman & Cowling 1970, first approximation).
+TEST_CASE("Mixture theory: Einstein's relation gives Enskog's coefficients of self-diffusion") {
+  for (const int dimension : {2, 3}) {
+    const MixtureGas gas = binary(dimension, 0.2, {5e5, 5e5}, 1.0, 1.0, 1.0);
+    const double diffusion = 1.7 / gas.friction(0, gas.equal(1.7));
+    const double n = 1e6 / gas.volume, chi = gas.contact_correlation(1.0, 1.0);
+    const double expected = (dimension == 2 ? 0.5 : 0.375) / (n * chi) * std::sqrt(1.7 / M_PI);
+    CHECK(diffusion == doctest::Approx(expected).epsilon(1e-5));
+  }
+}
+
+// A pair exchanges all of its relative velocity with its centre of mass at rest: the velocity of
+// one decays by 2 (1 + alpha)/D times 1/2 a collision, relative to the other one's opposite
+// velocity.
+TEST_CASE("Mixture theory: the others carry the opposite momentum of a heavy particle") {
+  MixtureGas gas = binary(3, 0.1, {900, 1}, 2.0, 100.0, 0.8);
+  const MixtureTemperatures equal = gas.equal(1.0);
+  const double rate = gas.collision_rate(1, 0, equal);
+  CHECK(gas.friction(1, equal) ==
+        doctest::Approx(1000.0 / 900.0 * 2.0 * 1.8 / 3.0 * (1.0 / 101.0) * rate));
+}
+
 }  // namespace clatter::mixture_theory
