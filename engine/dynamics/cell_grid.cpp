@@ -312,7 +312,7 @@ GridSizes grid_sizes(const Model<D>& model, const GrainArray& grains) {
   std::map<int, Class> classes;
   const auto particles = static_cast<double>(grains.size());
   double mean = 0.0, mobility = 0.0;
-  for (const Grain& grain : grains) {
+  grains.for_each([&](const Grain& grain) {
     const double diameter = 2.0 * grain.radius;
     const double number = std::ceil(kClassesPerOctave * std::log2(diameter / model.diameter));
     Class& of = classes[static_cast<int>(number)];
@@ -321,7 +321,7 @@ GridSizes grid_sizes(const Model<D>& model, const GrainArray& grains) {
     of.mobility += 1.0 / grain.mass;
     mean += diameter / particles;
     mobility += 1.0 / (grain.mass * particles);
-  }
+  });
   // Mean number of neighbours that a search reads; a list costs as much as some neighbours more.
   const auto cost_of = [&](double base) {
     constexpr double kPerList = 8.0;

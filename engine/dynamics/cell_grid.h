@@ -66,6 +66,8 @@ class CellGrid {
   CellGrid(const Model<D>& model, double cells)
       : CellGrid(whole_box<D>(model), {model.diameter, model.diameter}, cells) {}
 
+  /// Whether some particle has a reach above 1.
+  bool has_wide() const { return base_ < sizes_.largest; }
   /// Reach of a particle.
   int reach_of(double diameter) const { return diameter <= base_ ? 1 : wide_reach(diameter); }
   /// Puts a particle into a cell.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "engine/dynamics/grain_array.h"
 #include "engine/dynamics/neighbour.h"
 #include "engine/dynamics/packed_image.h"
 #include "engine/physics/pair_contact.h"
@@ -16,8 +17,8 @@ namespace clatter {
 inline constexpr int kRowLength = 8;
 
 /// Possible partners of one particle. A particle is a row of kRowLength doubles: D of position, D
-/// of velocity, the time of both, and two words. The first word is not read, the second is the
-/// PackedImage of the row's frame.
+/// of velocity, the time of both, and two words. The first word is not read, the second is a
+/// PackedImage: the row's frame and the particle's kind.
 template <int D>
 struct Candidates {
   static constexpr int kCapacity = D == 2 ? 16 : 32;
@@ -95,6 +96,18 @@ template <int D>
   return __builtin_shufflevector(words, words, 1, 3, 5, 7);
 }
 
+// Place of the second word of a row.
+template <int D>
+inline constexpr int kImage = 2 * D + 1;
+
+// The second word of a row.
+template <int D>
+[[gnu::always_inline]] inline PackedImage image_word(const double* row) {
+  PackedImage word;
+  std::memcpy(&word, reinterpret_cast<const char*>(row + kImage<D>) + sizeof word, sizeof word);
+  return word;
+}
+
 // A particle and its candidates, in groups of four.
 template <int D>
 struct Groups {
@@ -107,16 +120,27 @@ struct Groups {
 
 // Distances at contact of a particle and four neighbours, if all particles are alike: a double.
 template <int D>
-[[gnu::always_inline]] inline double distances_of(double diameter, std::uint32_t,
-                                                  const Neighbour*) {
+[[gnu::always_inline]] inline double distances_of(double diameter, std::uint32_t, const double*,
+                                                  const Neighbour*, const double* const*) {
   return diameter;
 }
-// The same in a mixture, from the radii of all particles.
+// The same in a mixture, from the radii of kinds or of all particles.
 template <int D>
-[[gnu::always_inline]] inline Doubles distances_of(const double* radii, std::uint32_t particle,
-                                                   const Neighbour* neighbours) {
-  const auto radius = [&](int lane) { return radii[particle_of<D>(neighbours[lane])]; };
-  return broadcast(radii[particle]) + Doubles{radius(0), radius(1), radius(2), radius(3)};
+[[gnu::always_inline]] inline Doubles distances_of(const Radii& radii, std::uint32_t particle,
+                                                   const double* own, const Neighbour* neighbours,
+                                                   const double* const* rows) {
+  if (radii.of_kinds) {
+    const auto radius = [&](const double* row) {
+      return radii.of_kinds[kind_of(image_word<D>(row))];
+    };
+    return broadcast(radius(own)) +
+           Doubles{radius(rows[0]), radius(rows[1]), radius(rows[2]), radius(rows[3])};
+  }
+  const auto radius = [&](int lane) {
+    return radii.of_particles[particle_of<D>(neighbours[lane])];
+  };
+  return broadcast(radii.of_particles[particle]) +
+         Doubles{radius(0), radius(1), radius(2), radius(3)};
 }
 
 // Calculates the approaches of all candidates to a particle, see first_contacts.
@@ -125,7 +149,6 @@ template <int D, bool kFalling, bool kShifted, class Sizes>
                                             Candidates<D>& candidates, const double* box,
                                             const Sizes& sizes, const double* gravity,
                                             Groups<D>& groups) {
-  constexpr int kImage = 2 * D + 1;
   const double* const own = rows + static_cast<std::size_t>(particle) * kRowLength;
   Doubles r[D], v[D];
   for (int k = 0; k < D; ++k) {
@@ -133,8 +156,7 @@ template <int D, bool kFalling, bool kShifted, class Sizes>
     v[k] = broadcast(own[D + k]);
   }
   const Doubles time = broadcast(own[2 * D]);
-  PackedImage word;
-  std::memcpy(&word, reinterpret_cast<const char*>(own + kImage) + sizeof word, sizeof word);
+  const PackedImage word = image_word<D>(own);
   const Ints own_image{word, word, word, word};
   groups.images = own_image;
   for (int i = 0; i < Candidates<D>::kMargin; ++i)
@@ -147,7 +169,7 @@ template <int D, bool kFalling, bool kShifted, class Sizes>
     }
     Doubles columns[kRowLength];
     for (int k = 0; k < kRowLength; k += 4) transpose(row, k, columns + k);
-    const Ints image = second_words(columns[kImage]);
+    const Ints image = second_words(columns[kImage<D>]);
     groups.images |= image;
     Doubles shift[D];
     if constexpr (kShifted) {
@@ -159,7 +181,7 @@ template <int D, bool kFalling, bool kShifted, class Sizes>
     }
     groups.approaches[groups.count++] = approach_of<D, kFalling>(
         r, v, time, columns, columns + D, columns[2 * D], kShifted ? shift : nullptr,
-        distances_of<D>(sizes, particle, candidates.neighbours + i), gravity);
+        distances_of<D>(sizes, particle, own, candidates.neighbours + i, row), gravity);
   }
 }
 
@@ -179,7 +201,7 @@ template <int D, bool kShifted>
   const Ints pairs =
       groups.images | __builtin_shufflevector(groups.images, groups.images, 2, 3, 0, 1);
   const std::int32_t images = pairs[0] | pairs[1];
-  unique &= kShifted ? images >= 0 : images == 0;
+  unique &= kShifted ? images >= 0 : (images & kImageMask) == 0;
   return {time, never ? 0 : std::countr_zero(sharing), unique};
 }
 
@@ -187,11 +209,11 @@ template <int D, bool kShifted>
 
 /// For each particle, the first pair_contact_time with its candidates. A particle may be its own
 /// candidate, without effect. `rows` holds all particles, `box` the D edge lengths. `sizes` is the
-/// diameter of all, a double, or the radii of a mixture. `gravity` is read only with kFalling. The
+/// diameter of all, a double, or the Radii of a mixture. `gravity` is read only with kFalling. The
 /// result has the same bits with any instruction set.
 ///
 /// Without kShifted, no candidate may have a wrap, and all rows must be in the frame of the box.
-/// With kShifted, no row may have a kFarImage. If a row does not fit, `unique` is false and the
+/// With kShifted, no row's image may be far. If a row does not fit, `unique` is false and the
 /// other results are invalid.
 template <int D, bool kFalling, bool kShifted, std::size_t kParticles, class Sizes>
 [[gnu::always_inline]] inline std::array<FirstContact, kParticles> first_contacts(

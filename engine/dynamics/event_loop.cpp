@@ -84,6 +84,7 @@ void EventLoop<D>::restart(RunState<D>&& saved) {
   grains_.assign(saved.grains);
   free_memory(saved.grains);
   gas_ = states_of<D>(model_, saved);
+  for (std::uint32_t i = 0; i < grains_.size(); ++i) gas_.particles.set_kind(i, grains_.kind(i));
   near_ = Neighbourhood<D>(model_, grains_, static_cast<double>(gas_.particles.size()));
   set_alike();
   prediction_.set_laws();
@@ -162,7 +163,7 @@ void EventLoop<D>::load(const ParticleStates<D>& gas, const GrainArray& grains,
   set_alike();
   gas_.era = gas.era;
   gas_.particles.resize(count);
-  grains_.resize(grains.empty() ? 0 : count);
+  grains_.prepare(grains, count);
   prediction_.set_laws();
   gas_.fit(model_, count);
   plans_.resize(count);
@@ -190,7 +191,7 @@ void EventLoop<D>::load(const ParticleStates<D>& gas, const GrainArray& grains,
     gas_.particles.set_image(i, record.images[i]);
     plans_[i].cell = cells[by_cell[i]];
     if (grains.empty()) continue;
-    grains_.set(i, grains[record.numbers[i]]);
+    grains_.take(i, grains, record.numbers[i]);
     near_.insert(i, plans_[i].cell);
   }
   queue_.order_by(record.numbers.data());
@@ -217,7 +218,8 @@ void EventLoop<D>::save_to(RunState<D>& saved) const {
   saved.now = now_;
   saved.flights.reserve(gas_.particles.size());
   for (const Particle<D>& particle : gas_.particles) saved.flights.push_back(particle.flight);
-  saved.grains.assign(grains_.begin(), grains_.end());
+  saved.grains.reserve(grains_.size());
+  grains_.for_each([&](const Grain& grain) { saved.grains.push_back(grain); });
   saved.spins.assign(gas_.spins.begin(), gas_.spins.end());
   saved.last_collisions.assign(gas_.last_collisions.begin(), gas_.last_collisions.end());
   saved.remainders.assign(gas_.remainders.begin(), gas_.remainders.end());
@@ -483,7 +485,7 @@ void EventLoop<D>::prefetch_ahead() {
     return;
   }
   const bool neighbours = gas_.particles.size() >= kPrefetchNeighboursFrom;
-  const bool mixed = !grains_.empty();
+  const bool mixed = !grains_.empty() && grains_.kinds().empty();
   queue_.look_ahead(neighbours ? 3 : 2, [&](const Event& event) {
     prefetch(gas_.particles[event.particle]);
     prefetch(plans_[event.particle]);
@@ -512,7 +514,7 @@ void EventLoop<D>::prefetch_ahead() {
         const Neighbour neighbour = list.neighbours[k];
         if (neighbour == kNobody) continue;
         prefetch(gas_.particles[particle_of<D>(neighbour)]);
-        if (mixed) prefetch(grains_.radii()[particle_of<D>(neighbour)]);
+        if (mixed) prefetch(grains_.radii().of_particles[particle_of<D>(neighbour)]);
       }
     });
   });

@@ -164,7 +164,8 @@ class EventLoop {
   const GrainArray& grains() const { return grains_; }
   /// What a particle is.
   const Grain& grain(std::uint32_t number) const {
-    return grains_.empty() ? alike_ : grains_[number];
+    if (grains_.empty()) return alike_;
+    return grains_.kinds().empty() ? grains_[number] : grains_.kinds()[gas_.particles.kind(number)];
   }
   /// [N] see Simulation::spins.
   const LargeArray<Spin<D>>& spins() const { return gas_.spins; }
@@ -208,8 +209,6 @@ class EventLoop {
   void visit_searches(const Event& event, const Visit& visit) const;
   Spin<D> spin(std::uint32_t number) const;
   void set_alike();
-  ParticleChange<D> change_of(std::uint32_t number, const Vec<D>& position, const Vec<D>& velocity,
-                              const Impulse<D>& gain) const;
   void add_spin(std::uint32_t number, const Spin<D>& gain);
 
   const Model<D>& model_;

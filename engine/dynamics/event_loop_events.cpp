@@ -130,10 +130,11 @@ bool EventLoop<D>::within_contact_time(std::uint32_t number) const {
 
 // The record of one particle's change for observers.
 template <int D>
-ParticleChange<D> EventLoop<D>::change_of(std::uint32_t number, const Vec<D>& position,
-                                          const Vec<D>& velocity, const Impulse<D>& gain) const {
-  return {number,       grain(number), gas_.particles[number].flight, position, velocity,
-          spin(number), gain};
+[[gnu::always_inline]] static inline ParticleChange<D> change_of(
+    const ParticleStates<D>& gas, std::uint32_t number, const Grain& grain, const Vec<D>& position,
+    const Vec<D>& velocity, const Impulse<D>& gain) {
+  const Spin<D> spin = gas.spins.empty() ? Spin<D>(Spin<D>::Zero()) : gas.spins[number];
+  return {number, grain, gas.particles[number].flight, position, velocity, spin, gain};
 }
 
 template <int D>
@@ -144,8 +145,8 @@ void EventLoop<D>::collide(std::uint32_t first, std::uint32_t second, const IntV
   const Vec<D> x = (r_a - r_b) + shift;
   const Vec<D> g = v_a - v_b;
   const bool mixed = !grains_.empty();
-  const double distance =
-      mixed ? grains_.radii()[first] + grains_.radii()[second] : model_.diameter;
+  const Grain &one = grain(first), &other = grain(second);
+  const double distance = one.radius + other.radius;
   const double least = distance - checks_.deepest_overlap * model_.diameter;
   if (x.squaredNorm() < least * least) {
     checks_.deepest_overlap =
@@ -157,7 +158,6 @@ void EventLoop<D>::collide(std::uint32_t first, std::uint32_t second, const IntV
   if (x.dot(g) < 0.0 && gas_.spins.empty() && gas_.last_collisions.empty() && !mixed) {
     outcome.gain.momentum = collision_impulse<D>(x, g, model_.restitution, alike_partners_);
   } else if (x.dot(g) < 0.0) {
-    const Grain &one = grain(first), &other = grain(second);
     const Spin<D> surface = one.radius * spin(first) + other.radius * spin(second);
     const bool elastic = within_contact_time(first) || within_contact_time(second);
     outcome =
@@ -167,16 +167,21 @@ void EventLoop<D>::collide(std::uint32_t first, std::uint32_t second, const IntV
   const Vec<D>& momentum = outcome.gain.momentum;
   if (!observers_.empty()) {
     const bool swap = second < first;
-    PairCollision<D> collision{
-        now_, {}, x * (swap ? -1.0 : 1.0), outcome.elasticised, outcome.undissipated};
-    collision.particles[swap] = change_of(first, r_a, v_a, outcome.gain.of(0));
-    collision.particles[!swap] = change_of(second, r_b, v_b, outcome.gain.of(1));
+    const PairCollision<D> collision{
+        now_,
+        {change_of(gas_, swap ? second : first, swap ? other : one, swap ? r_b : r_a,
+                   swap ? v_b : v_a, outcome.gain.of(swap)),
+         change_of(gas_, swap ? first : second, swap ? one : other, swap ? r_a : r_b,
+                   swap ? v_a : v_b, outcome.gain.of(!swap))},
+        x * (swap ? -1.0 : 1.0),
+        outcome.elasticised,
+        outcome.undissipated};
     for (Observer<D>* observer : observers_) observer->on_collision(collision);
   }
   --until_base_moves_;
   if (mixed) {
-    renew_flight(first, r_a, v_a + momentum / grains_[first].mass);
-    renew_flight(second, r_b, v_b - momentum / grains_[second].mass);
+    renew_flight(first, r_a, v_a + momentum / one.mass);
+    renew_flight(second, r_b, v_b - momentum / other.mass);
   } else {
     renew_flight(first, r_a, v_a + momentum);
     renew_flight(second, r_b, v_b - momentum);
@@ -211,7 +216,8 @@ void EventLoop<D>::hit_wall(std::uint32_t number, int side) {
   if (!observers_.empty()) {
     const Spin<D> spin_gain = departure.spin - spin(number);
     const Vec<D> gain = grain(number).mass * (departure.velocity - v);
-    const WallCollision<D> collision{now_, side, change_of(number, r, v, {gain, spin_gain})};
+    const WallCollision<D> collision{
+        now_, side, change_of(gas_, number, grain(number), r, v, Impulse<D>{gain, spin_gain})};
     for (Observer<D>* observer : observers_) observer->on_wall(collision);
   }
   --until_base_moves_;
@@ -243,7 +249,8 @@ void EventLoop<D>::kick() {
   for (std::uint32_t i = 0; i < count; ++i) {
     const Vec<D> gain = velocities[i] - mean;
     const auto [r, v] = motion_now(i);
-    const Kick<D> kick{now_, change_of(i, r, v, {grain(i).mass * gain, spins[i]})};
+    const Kick<D> kick{
+        now_, change_of(gas_, i, grain(i), r, v, Impulse<D>{grain(i).mass * gain, spins[i]})};
     for (Observer<D>* observer : observers_) observer->on_kick(kick);
     renew_flight(i, r, v + gain);
     add_spin(i, spins[i]);
@@ -292,7 +299,9 @@ void EventLoop<D>::nudge(const std::vector<NewVelocity<D>>& velocities,
   for (const NewVelocity<D>& next : velocities) {
     const auto [r, v] = motion_now(next.particle);
     const Vec<D> gain = grain(next.particle).mass * (next.velocity - v);
-    const Kick<D> kick{now_, change_of(next.particle, r, v, {gain, Spin<D>::Zero()}),
+    const Kick<D> kick{now_,
+                       change_of(gas_, next.particle, grain(next.particle), r, v,
+                                 Impulse<D>{gain, Spin<D>::Zero()}),
                        KickCause::Nudge};
     for (Observer<D>* observer : observers_) observer->on_kick(kick);
     renew_flight(next.particle, r, next.velocity);
@@ -323,10 +332,6 @@ template void EventLoop<2>::note_stray(std::uint32_t, const Vec2&);
 template void EventLoop<3>::note_stray(std::uint32_t, const Vec<3>&);
 template bool EventLoop<2>::within_contact_time(std::uint32_t) const;
 template bool EventLoop<3>::within_contact_time(std::uint32_t) const;
-template ParticleChange<2> EventLoop<2>::change_of(std::uint32_t, const Vec2&, const Vec2&,
-                                                   const Impulse<2>&) const;
-template ParticleChange<3> EventLoop<3>::change_of(std::uint32_t, const Vec<3>&, const Vec<3>&,
-                                                   const Impulse<3>&) const;
 template void EventLoop<2>::collide(std::uint32_t, std::uint32_t, const IntVec<2>&);
 template void EventLoop<3>::collide(std::uint32_t, std::uint32_t, const IntVec<3>&);
 template void EventLoop<2>::hit_wall(std::uint32_t, int);

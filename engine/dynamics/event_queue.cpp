@@ -28,6 +28,7 @@ void EventQueue::spread(std::vector<Event>& events, std::size_t first) {
   later_.clear();
   free_memory(arrived_);  // a burst may have taken much
   bucket_ = 0;
+  empty_ = 0;
   if (events.empty()) return;
 
   const auto last = events.begin() + static_cast<std::ptrdiff_t>(first);
@@ -108,13 +109,14 @@ void EventQueue::push_current(Event event) {
   moved_aside_ += insert_last(current_.data(), current_.size(), numbers_);
   constexpr std::size_t kCrowd = 64;
   if (current_.size() > kCrowd && moved_aside_ > 8 * (current_.size() + beyond_current())) {
-    thin_out();
+    const std::size_t crowd = current_.size();
+    std::vector<Event> events = take_all();
+    spread(events, crowd - 1);
   }
 }
 
-// Rebuilds the calendar with a bucket width from the density of the current bucket.
-void EventQueue::thin_out() {
-  const std::size_t crowd = current_.size();
+// All events; the calendar then needs new ones.
+std::vector<Event> EventQueue::take_all() {
   std::vector<Event> events = std::exchange(current_, {});
   const auto take = [&](const auto& more) {
     events.insert(events.end(), more.begin(), more.end());
@@ -127,7 +129,7 @@ void EventQueue::thin_out() {
   }
   take(later_);
   take(arrived_);
-  spread(events, crowd - 1);
+  return events;
 }
 
 void EventQueue::add_to_row(const Event& event, std::int64_t bucket) {
@@ -168,6 +170,13 @@ void EventQueue::next_bucket() {
   auto& bucket = buckets_[static_cast<std::size_t>(bucket_ & kInRow)];
   in_buckets_ -= bucket.size();
   current_.swap(bucket);
+  // Buckets are too narrow if the first events at the last rebuild were closer in time than usual,
+  // as after the start of a dense mixture.
+  empty_ += current_.empty();
+  if (empty_ > beyond_current() / 2 + kBuckets) {
+    std::vector<Event> events = take_all();
+    rebuild(events);
+  }
 }
 
 // Spreads the row that begins with the current bucket over the buckets.

@@ -12,7 +12,7 @@
 // The calendar is a ladder queue with O(1) push and pop (event_queue.h). Rows hold the far future
 // unsorted. The current row is spread over buckets. Only the current bucket is sorted. The width of
 // the buckets follows from the density of the first events. Where a few hot particles crowd a
-// bucket, the calendar is rebuilt after a counted amount of work.
+// bucket, or most buckets are empty, the calendar is rebuilt after a counted amount of work.
 
 namespace clatter {
 
@@ -57,6 +57,7 @@ class EventQueue {
   static constexpr unsigned kRowShift = 9;  // log2 of the buckets per row
   // Mask of a bucket's number that gives its index in its row.
   static constexpr std::int64_t kInRow = (std::int64_t{1} << kRowShift) - 1;
+  static constexpr std::size_t kBuckets = kInRow + 1;  // per row
   // Enough rows that a gas of 10^6 particles has few events beyond them.
   static constexpr std::int64_t kRows = 2048;
   // Rows grow by chunks from a common store. Memory then follows the number of planned events, not
@@ -78,7 +79,7 @@ class EventQueue {
   void drop_dead(const Live& live);
   void sort_current();
   void push_current(Event event);
-  void thin_out();
+  std::vector<Event> take_all();
   void put_away(const Event& event);
   void next_bucket();
   void next_row();
@@ -91,7 +92,8 @@ class EventQueue {
   std::int64_t bucket_ = 0;      // number of the current bucket
   std::vector<Event> current_;   // the current bucket, the earliest event last
   std::size_t moved_aside_ = 0;  // events shifted by insertions into current_
-  std::array<std::vector<Event>, kInRow + 1> buckets_;  // of the current row
+  std::size_t empty_ = 0;        // buckets without events since the last rebuild
+  std::array<std::vector<Event>, kBuckets> buckets_;  // of the current row
   // [kRows], a ring over the coming rows: their newest chunks, or null
   std::vector<Chunk*> rows_ = std::vector<Chunk*>(kRows);
   std::deque<Chunk> chunks_;  // of all rows

@@ -53,7 +53,7 @@ static double even_radius(const Model<D>& model, double particles, double contac
 static double mean_contact(double largest, const GrainArray& grains) {
   if (grains.empty()) return largest;
   double sum = 0.0;
-  for (const Grain& grain : grains) sum += 2.0 * kContact * grain.radius;
+  grains.for_each([&](const Grain& grain) { sum += 2.0 * kContact * grain.radius; });
   return sum / static_cast<double>(grains.size());
 }
 
@@ -63,7 +63,7 @@ template <int D>
 float NeighbourLists<D>::span_of(std::uint32_t particle) const {
   const double radius = regions_[particle].radius;
   if (grains_->empty()) return static_cast<float>(radius);
-  const double smaller = 0.5 * contact_ - kContact * grains_->radii()[particle];
+  const double smaller = 0.5 * contact_ - kContact * grains_->radius(particle);
   return static_cast<float>(radius - smaller);
 }
 

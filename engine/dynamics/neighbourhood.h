@@ -191,9 +191,11 @@ class Neighbourhood {
     }
     if (D == 2) return false;
     constexpr double kAlike = 2.0;  // ratio of the largest to the least diameter
-    for (const Grain& grain : grains) {
-      if (kAlike * 2.0 * grain.radius < model.diameter) return false;
-    }
+    bool similar = true;
+    grains.for_each([&](const Grain& grain) {
+      similar = similar && kAlike * 2.0 * grain.radius >= model.diameter;
+    });
+    if (!similar) return false;
     // Lists of cells are as long as those of a gas of particles that are as wide as the cells.
     const double volume = particles * std::pow(grid_sizes<D>(model, grains).base, D);  // of cubes
     return packing_fraction(D, volume / model.box.prod()) > kDense;
@@ -201,7 +203,7 @@ class Neighbourhood {
   bool by_particle() const { return D == 3 && lists_.has_value(); }
 
   int reach_of(std::uint32_t particle) const {
-    return grains_->empty() ? 1 : grid_.reach_of(2.0 * grains_->radii()[particle]);
+    return grid_.has_wide() ? grid_.reach_of(2.0 * grains_->radius(particle)) : 1;
   }
 
   const GrainArray* grains_;  // a pointer, so that a neighbourhood can be assigned

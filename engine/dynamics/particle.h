@@ -10,7 +10,8 @@
 
 // A particle's state fills one cache line (Particle), because a prediction reads some 20 of them.
 // The flight keeps the frame of its start when it crosses a periodic border. Its image counts the
-// boxes since then, in 32 bits at the end of the line; ParticleArray keeps the few that are larger.
+// boxes since then, in 24 bits at the end of the line; ParticleArray keeps the few that are larger.
+// The word has the particle's kind too, because a random access to an array of radii costs as much.
 
 namespace clatter {
 
@@ -23,7 +24,8 @@ inline constexpr double kLongBox = 16384.0;
 template <int D>
 struct alignas(64) Particle {
   [[no_unique_address]] Flight<D> flight;  ///< since its last physical event
-  PackedImage image = 0;                   ///< see ParticleArray::image; at the end of the flight
+  /// See ParticleArray::image() and kind(). It lies at the end of the flight.
+  PackedImage image = 0;
 };
 
 /// The stored states of all particles, and the periodic images of their flights.
@@ -53,10 +55,23 @@ class ParticleArray {
   /// The flight of a particle, to be changed.
   Flight<D>& flight(std::size_t number) { return particles_[number].flight; }
 
+  /// Copies a particle with its kind, but not its image.
+  void copy(std::uint32_t to, const Particle<D>& source) {
+    particles_[to].flight = source.flight;
+    set_kind(to, kind_of(source.image));
+  }
+  /// The kind of a particle of a mixture, see GrainArray::kinds().
+  std::uint32_t kind(std::uint32_t number) const { return kind_of(particles_[number].image); }
+  /// Sets the kind of a particle, below 2^kKindBits.
+  void set_kind(std::uint32_t number, std::uint32_t kind) {
+    PackedImage& word = particles_[number].image;
+    word = (word & kImageMask) | static_cast<PackedImage>(kind << kAllImageBits);
+  }
+
   /// Whole box lengths from the frame of a particle's cell to the frame of its flight.
   Vec<D> image(std::uint32_t number) const {
     const PackedImage packed = particles_[number].image;
-    if (packed == kFarImage) [[unlikely]]
+    if (packed < 0) [[unlikely]]
       return far_images_.at(number);
     Vec<D> image;
     for (int axis = 0; axis < D; ++axis) image[axis] = image_component<D>(packed, axis);
@@ -64,8 +79,9 @@ class ParticleArray {
   }
   /// Sets the image of a particle, in whole box lengths.
   void set_image(std::uint32_t number, const Vec<D>& image) {
-    particles_[number].image = packed_image<D>(image);
-    if (particles_[number].image == kFarImage) [[unlikely]]
+    PackedImage& word = particles_[number].image;
+    word = (word & ~kImageMask) | packed_image<D>(image);
+    if (word < 0) [[unlikely]]
       far_images_[number] = image;
   }
   /// Adds whole box lengths to an image.

@@ -26,8 +26,8 @@ struct ParticleStates {
   std::uint32_t era = 0;
 
   /// Copies the data of a particle, but not its image.
-  void copy(std::size_t to, const ParticleStates& source, std::size_t from) {
-    particles.flight(to) = source.particles[from].flight;
+  void copy(std::uint32_t to, const ParticleStates& source, std::uint32_t from) {
+    particles.copy(to, source.particles[from]);
     if (!spins.empty()) spins[to] = source.spins[from];
     if (!last_collisions.empty()) last_collisions[to] = source.last_collisions[from];
     if (!remainders.empty()) remainders[to] = source.remainders[from];

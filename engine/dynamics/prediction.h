@@ -118,7 +118,7 @@ class Prediction {
       const std::array<std::uint32_t, kParticles>& particles,
       std::array<Candidates<D>, kParticles>& near) const;
   double radius_of(std::uint32_t particle) const {
-    return grains_.empty() ? 0.5 * model_.diameter : grains_.radii()[particle];
+    return grains_.empty() ? 0.5 * model_.diameter : grains_.radius(particle);
   }
   void weigh_each(std::uint32_t particle, const Candidates<D>& near, Plan<D>& plan) const;
   void offer_particle(std::uint32_t particle, const Candidates<D>& near, int i, double time,

@@ -484,7 +484,8 @@ State<D> Simulation<D>::state() const {
     state.velocities.push_back(particle.flight.velocity_at(base_time(), model_.gravity));
   }
   state.spins.assign(spins().begin(), spins().end());
-  state.grains.assign(loop_.grains().begin(), loop_.grains().end());
+  state.grains.reserve(loop_.grains().size());
+  loop_.grains().for_each([&](const Grain& grain) { state.grains.push_back(grain); });
   return state;
 }
 
@@ -496,7 +497,7 @@ std::uint64_t Simulation<D>::state_hash() const {
 template <int D>
 double Simulation<D>::mass() const {
   double mass = 0.0;
-  for (const Grain& grain : loop_.grains()) mass += grain.mass;
+  loop_.grains().for_each([&](const Grain& grain) { mass += grain.mass; });
   return is_mixture() ? mass : static_cast<double>(particles().size());
 }
 

@@ -131,8 +131,10 @@ class Simulation {
   template <class Visit>
   void for_masses(const Visit& visit) const {
     if (is_mixture()) {
-      const Grain* grain = loop_.grains().begin();
-      for (const Particle<D>& particle : particles()) visit(particle.flight, (grain++)->mass);
+      std::size_t i = 0;
+      for (const Particle<D>& particle : particles()) {
+        visit(particle.flight, loop_.grains()[i++].mass);
+      }
     } else {
       for (const Particle<D>& particle : particles()) visit(particle.flight, UnitMass());
     }

@@ -78,8 +78,7 @@ void Totals<D>::book_work(double mass, const Vec<D>& distance) {
 
 // An event ends the particle's flight and changes its velocity and spin.
 template <int D>
-void Totals<D>::change(const ParticleChange<D>& particle, double time) {
-  integrate_to(time);
+void Totals<D>::change(const ParticleChange<D>& particle) {
   const Impulse<D>& gain = particle.gain;
   squares_ +=
       gain.momentum.cwiseProduct(gain.momentum / particle.grain.mass + 2.0 * particle.velocity);
@@ -115,7 +114,8 @@ void Totals<D>::end_flights() {
 
 template <int D>
 void Totals<D>::on_collision(const PairCollision<D>& collision) {
-  for (const ParticleChange<D>& particle : collision.particles) change(particle, collision.time);
+  integrate_to(collision.time);
+  for (const ParticleChange<D>& particle : collision.particles) change(particle);
   window_.collisions += 1.0;
   window_.elasticised += collision.elasticised;
   const double gained = collision.particles[0].energy() + collision.particles[1].energy();
@@ -129,7 +129,8 @@ void Totals<D>::on_collision(const PairCollision<D>& collision) {
 
 template <int D>
 void Totals<D>::on_wall(const WallCollision<D>& collision) {
-  change(collision.particle, collision.time);
+  integrate_to(collision.time);
+  change(collision.particle);
   book(collision.particle.energy());
   window_.walls_in += collision.particle.energy();
   window_.wall_impulse[collision.side] +=
@@ -138,7 +139,8 @@ void Totals<D>::on_wall(const WallCollision<D>& collision) {
 
 template <int D>
 void Totals<D>::on_kick(const Kick<D>& kick) {
-  change(kick.particle, kick.time);
+  integrate_to(kick.time);
+  change(kick.particle);
   book(kick.particle.energy());
   double& in = kick.cause == KickCause::Nudge ? window_.nudges_in : window_.bulk_in;
   in += kick.particle.energy();

@@ -66,7 +66,7 @@ class Totals : public Observer<D> {
   void visit(Archive& io);
 
  private:
-  void change(const ParticleChange<D>& particle, double time);
+  void change(const ParticleChange<D>& particle);
   void integrate_to(double time);
   double energy_of_starts() const;
   void take_stock();

@@ -295,6 +295,7 @@ TEST_CASE("Scene file: a field name means all components, and each component has
                                                     Field(Quantity::Temperature, 1)});
   // Each can be read as it is written.
   for (const auto& [name, field] : measured_names(2)) {
+    if (of_species_alone(field.quantity)) continue;
     Scene scene = parse_scene(kParticles + "friction = 0.5\n", "s.toml");
     scene.measure.fields = fields("[\"" + name + "\"]");
     CHECK(std::ranges::find(scene.measure.fields, field) != scene.measure.fields.end());
