@@ -291,6 +291,22 @@ TEST_CASE("Reference: dense mixtures of spheres, which have lists of their own")
   }
 }
 
+// Up to 128 kinds of particles have numbers in the rows of particles; beyond, each has its radius
+// in an array.
+TEST_CASE_TEMPLATE("Reference: gases of as many kinds as particles", Dimension, Plane, Space) {
+  constexpr int D = Dimension::value;
+  const Model<D> model = inelastic(periodic_box<D>(Vec<D>::Constant(D == 2 ? 14.0 : 6.0)), 0.9);
+  for (const std::size_t count : {128, 129}) {
+    CAPTURE(count);
+    std::vector<Grain> grains;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double radius = 0.5 - 0.25 * static_cast<double>(i) / static_cast<double>(count);
+      grains.push_back({.radius = radius, .mass = 8.0 * radius * radius * radius});
+    }
+    compare<D>(model, mixture_state<D>(model, grains, 1.0, 91), 60);
+  }
+}
+
 // Kicks differ by mass only under two of the laws.
 TEST_CASE("Reference: mixtures under kicks of every law") {
   for (const KickLaw law : {KickLaw::Velocity, KickLaw::Energy, KickLaw::Momentum}) {
