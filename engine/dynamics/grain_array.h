@@ -17,9 +17,9 @@ struct Radii {
   const double* of_particles;  ///< by number
 };
 
-/// What the particles of a mixture are; empty if all particles are alike. Particles of few kinds
-/// have a byte each. Otherwise each has a grain, and its radius once more in an array that searches
-/// for contacts read.
+/// What the particles of a mixture are; empty if all particles are alike. Particles of up to 128
+/// kinds have a byte each. Otherwise each has a grain, and its radius once more in an array that
+/// searches for contacts read. EventLoop::restart copies the number of a kind to the particle's word.
 class GrainArray {
  public:
   /// Takes the grains of all particles, and finds their kinds.
@@ -62,7 +62,7 @@ class GrainArray {
     for (std::size_t i = 0; i < size(); ++i) visit((*this)[i]);
   }
 
-  /// The different grains; empty: there are too many for a PackedImage.
+  /// The different grains; empty if all particles are alike, or have more than 128 kinds.
   const std::vector<Grain>& kinds() const { return kinds_; }
   /// The number of a particle's kind; 0 if there are too many.
   std::uint32_t kind(std::size_t number) const { return kinds_.empty() ? 0 : numbers_[number]; }

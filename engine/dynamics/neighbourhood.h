@@ -17,8 +17,8 @@
 // border by an overhang, which is as wide as contacts allow. This hysteresis prevents repeated
 // crossings. Cells become finer in clusters. Spheres above a volume fraction of 0.43 have lists of
 // their own (NeighbourLists). In a mixture the fraction is that of as many spheres that are as wide
-// as the cells. These lists have half as many particles as those of 27 cells, and dense spheres
-// leave their regions rarely.
+// as the cells, and no diameter may be below half of the largest. Lists of spheres have half as many
+// particles as those of 27 cells, and dense spheres leave their regions rarely.
 
 namespace clatter {
 
