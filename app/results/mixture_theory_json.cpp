@@ -115,6 +115,7 @@ void add_diffusion(Json& json, const Scene& scene, const MixtureGas& gas,
     Json& species = *std::ranges::find_if(
         json["species"], [&](const Json& entry) { return entry.at("name") == name; });
     const double friction = gas.friction(c, in_collisions);
+    if (!(friction > 0.0)) continue;
     species["friction"] = friction;
     species["diffusion"] = temperatures[c] / (one.mass * friction);
   }

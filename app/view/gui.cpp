@@ -327,7 +327,7 @@ void Gui::observable_plots(float height) {
   }
   const Frame& frame = session_.frame();
   const std::vector<LivePlot> plots =
-      table_plots((*tables)[index], *frame.scene, histories_.at(frame.id).species_theory(),
+      table_plots((*tables)[index], *frame.scene, histories_.at(frame.id),
                   panel_theme(shown_view()));
   for (const LivePlot& plot : plots) {
     draw_plot(plot, height);

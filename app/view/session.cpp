@@ -207,7 +207,9 @@ void Session::cancel_open() {
 
 // A scene with the view and the speed on screen. A view of spheres does not fit disks.
 Scene Session::as_shown(Scene scene) const {
-  if (scene.dimension() == this->scene().dimension()) scene.view = view_;
+  if (scene.dimension() == this->scene().dimension()) {
+    scene.view = scene.adapted(view_, this->scene().species);
+  }
   scene.view.speed = speed_;
   return scene;
 }

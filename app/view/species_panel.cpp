@@ -77,8 +77,7 @@ void species_controls(Session& session, Controls& controls) {
     }
     return;
   }
-  std::vector<std::string> names;
-  for (const Species& one : species) names.push_back(one.name);
+  const std::vector<std::string> names = names_of(species);
   int& chosen = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("species"), 0);
   chosen = std::min(chosen, static_cast<int>(names.size()) - 1);
   controls.choice("species", "Species", "Whose particles and collisions the sliders below set",

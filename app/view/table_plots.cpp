@@ -99,23 +99,37 @@ Curve curve_of(const TableColumn& column, const std::vector<double>& x, std::siz
   return curve;
 }
 
-// The species at the end of a name, as in "total_heavy"; none: the number of species.
-std::size_t species_of(const std::string& name, const std::vector<Species>& species) {
-  std::size_t number = 0;
-  while (number < species.size() && !name.ends_with("_" + species[number].name)) ++number;
-  return number;
+// Whether a table is of the displacement, and of its columns the one that is not of an axis.
+bool is_displacement(const ResultTable& table) {
+  return table.name == "mean_squared_displacement";
+}
+const char* whole_column(const ResultTable& table) {
+  return is_displacement(table) ? "total" : "mean";
 }
 
-std::string without_species(const std::string& name, const Species& species) {
-  return name.substr(0, name.size() - species.name.size() - 1);
+// Whether the columns of a table are a mean or a sum over the axes, then the axes, of all particles
+// and of each species.
+bool is_correlation(const ResultTable& table) {
+  return is_displacement(table) || table.name == "velocity_autocorrelation";
+}
+
+// The species whose name is the longest one at the end of a column's name, as in "total_heavy". In
+// "drift_x" the x is an axis, also beside a species of this name.
+std::optional<std::size_t> species_of(const std::string& column,
+                                      const std::vector<Species>& species) {
+  std::optional<std::size_t> longest;
+  for (std::size_t s = 0; s < species.size(); ++s) {
+    if (!column.ends_with("_" + species[s].name)) continue;
+    if (column == "drift_" + species[s].name) continue;
+    if (!longest || species[s].name.size() > species[*longest].name.size()) longest = s;
+  }
+  return longest;
 }
 
 // The velocity correlation and the squared displacement of a particle of a species (theory 12.23).
 std::optional<Curve> diffusion_curve(const ResultTable& table, const Scene& scene,
                                      const SpeciesTheory& theory, std::size_t species,
                                      const std::vector<double>& lags) {
-  const bool moves = table.name == "mean_squared_displacement";
-  if (!moves && table.name != "velocity_autocorrelation") return std::nullopt;
   if (species >= theory.frictions.size() || !std::isfinite(theory.frictions[species])) {
     return std::nullopt;
   }
@@ -124,9 +138,9 @@ std::optional<Curve> diffusion_curve(const ResultTable& table, const Scene& scen
   Curve curve{.name = name + ", theory", .colour = {}, .points = {}, .dashed = true};
   curve.help = "D = T/(m γ), Einstein's relation, with the friction γ of Enskog's theory";
   for (const double lag : lags) {
-    const double value =
-        moves ? 2.0 * scene.dimension() * diffusion * (lag + std::expm1(-damping * lag) / damping)
-              : diffusion * damping * std::exp(-damping * lag);
+    const double value = is_displacement(table) ? 2.0 * scene.dimension() * diffusion *
+                                                      (lag + std::expm1(-damping * lag) / damping)
+                                                : diffusion * damping * std::exp(-damping * lag);
     curve.points.emplace_back(lag, value);
   }
   return curve;
@@ -166,7 +180,7 @@ std::string table_title(const ResultTable& table) {
 }
 
 std::vector<LivePlot> table_plots(const ResultTable& table, const Scene& scene,
-                                  const SpeciesTheory& theory, const ThemeColours& theme) {
+                                  const History& history, const ThemeColours& theme) {
   if (table.columns[0].name.ends_with("_low")) return {slab_plot(table)};
   const Abscissa abscissa = abscissa_of(table);
   const bool estimates = std::ranges::any_of(
@@ -178,11 +192,10 @@ std::vector<LivePlot> table_plots(const ResultTable& table, const Scene& scene,
     const TableColumn& column = table.columns[k];
     // Beside estimates, exact numbers describe the row.
     if (estimates && column.standard_errors.empty()) continue;
-    const std::size_t species = species_of(column.name, scene.species);
-    const bool of_species = species < scene.species.size();
-    const std::size_t axis =
-        axis_of(of_species ? without_species(column.name, scene.species[species]) : column.name);
-    if (of_species && axis < kAxes.size()) continue;  // too many for one plot
+    const auto species = species_of(column.name, scene.species);
+    const bool whole = species && is_correlation(table) &&
+                       column.name == whole_column(table) + ("_" + scene.species[*species].name);
+    if (species && is_correlation(table) && !whole) continue;  // axes of species: too many curves
     const auto plot =
         static_cast<std::size_t>(std::ranges::find(units, column.unit) - units.begin());
     if (plot == units.size()) {
@@ -195,14 +208,16 @@ std::vector<LivePlot> table_plots(const ResultTable& table, const Scene& scene,
                        typeset(column.unit)});
     }
     Curve curve = curve_of(column, abscissa.values, 0, abscissa.values.size());
-    curve.colour = of_species            ? colours[species]
+    const std::size_t axis = axis_of(column.name);
+    curve.colour = species               ? colours[*species]
                    : axis < kAxes.size() ? kAxisColours[axis]
                                          : theme.text;
     plots[plot].curves.push_back(std::move(curve));
-    if (!of_species) continue;
-    auto expected = diffusion_curve(table, scene, theory, species, abscissa.values);
+    if (!whole) continue;
+    auto expected =
+        diffusion_curve(table, scene, history.species_theory(), *species, abscissa.values);
     if (!expected) continue;
-    expected->colour = colours[species];
+    expected->colour = colours[*species];
     plots[plot].curves.push_back(std::move(*expected));
   }
   for (LivePlot& plot : plots) {

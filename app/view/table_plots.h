@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "app/plots/species_theory.h"
+#include "app/plots/history.h"
 #include "app/view/plot.h"
 #include "engine/observables/observable.h"
 #include "render/theme.h"
@@ -18,9 +18,9 @@ std::string table_title(const ResultTable& table);
 /// for each slab. An axis is logarithmic if bins or lags are, or if values differ by more than a
 /// factor of 100. On a logarithmic y axis, points with relative errors above 1/2 are not drawn.
 /// Columns without an axis have the text colour of the theme. In a mixture a species has its
-/// colour. Its total displacement and its velocity correlation have dashed theory beside them
-/// (theory 12.23).
+/// colour. Its displacement and its velocity correlation are drawn over all axes alone, with dashed
+/// theory (theory 12.23) of the history's scene.
 std::vector<LivePlot> table_plots(const ResultTable& table, const Scene& scene,
-                                  const SpeciesTheory& theory, const ThemeColours& theme);
+                                  const History& history, const ThemeColours& theme);
 
 }  // namespace clatter

@@ -485,15 +485,15 @@ void EventLoop<D>::prefetch_ahead() {
     return;
   }
   const bool neighbours = gas_.particles.size() >= kPrefetchNeighboursFrom;
-  const bool mixed = !grains_.empty() && grains_.kinds().empty();
+  const bool many_kinds = !grains_.empty() && grains_.kinds().empty();
   queue_.look_ahead(neighbours ? 3 : 2, [&](const Event& event) {
     prefetch(gas_.particles[event.particle]);
     prefetch(plans_[event.particle]);
-    if (mixed) prefetch(grains_[event.particle]);
+    if (many_kinds) prefetch(grains_[event.particle]);
     if (event.partner >= kWall) return;
     prefetch(gas_.particles[event.partner]);
     prefetch(plans_[event.partner]);
-    if (mixed) prefetch(grains_[event.partner]);
+    if (many_kinds) prefetch(grains_[event.partner]);
   });
   queue_.look_ahead(neighbours ? 2 : 1, [&](const Event& event) {
     if (!is_current(event)) return;
@@ -508,13 +508,13 @@ void EventLoop<D>::prefetch_ahead() {
   queue_.look_ahead(1, [&](const Event& event) {
     if (!is_current(event)) return;
     if (event.partner >= kCellBorder) near_.prefetch_search(event.particle);
-    visit_searches(event, [this, mixed](std::uint32_t particle, const IntVec<D>& cell) {
+    visit_searches(event, [this, many_kinds](std::uint32_t particle, const IntVec<D>& cell) {
       const NearListView list = near_.near(particle, cell);
       for (int k = 0; k < list.capacity; ++k) {
         const Neighbour neighbour = list.neighbours[k];
         if (neighbour == kNobody) continue;
         prefetch(gas_.particles[particle_of<D>(neighbour)]);
-        if (mixed) prefetch(grains_.radii().of_particles[particle_of<D>(neighbour)]);
+        if (many_kinds) prefetch(grains_.radii().of_particles[particle_of<D>(neighbour)]);
       }
     });
   });

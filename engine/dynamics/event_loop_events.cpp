@@ -132,8 +132,7 @@ bool EventLoop<D>::within_contact_time(std::uint32_t number) const {
 template <int D>
 [[gnu::always_inline]] static inline ParticleChange<D> change_of(
     const ParticleStates<D>& gas, std::uint32_t number, const Grain& grain, const Vec<D>& position,
-    const Vec<D>& velocity, const Impulse<D>& gain) {
-  const Spin<D> spin = gas.spins.empty() ? Spin<D>(Spin<D>::Zero()) : gas.spins[number];
+    const Vec<D>& velocity, const Spin<D>& spin, const Impulse<D>& gain) {
   return {number, grain, gas.particles[number].flight, position, velocity, spin, gain};
 }
 
@@ -170,9 +169,9 @@ void EventLoop<D>::collide(std::uint32_t first, std::uint32_t second, const IntV
     const PairCollision<D> collision{
         now_,
         {change_of(gas_, swap ? second : first, swap ? other : one, swap ? r_b : r_a,
-                   swap ? v_b : v_a, outcome.gain.of(swap)),
+                   swap ? v_b : v_a, spin(swap ? second : first), outcome.gain.of(swap)),
          change_of(gas_, swap ? first : second, swap ? one : other, swap ? r_a : r_b,
-                   swap ? v_a : v_b, outcome.gain.of(!swap))},
+                   swap ? v_a : v_b, spin(swap ? first : second), outcome.gain.of(!swap))},
         x * (swap ? -1.0 : 1.0),
         outcome.elasticised,
         outcome.undissipated};
@@ -217,7 +216,8 @@ void EventLoop<D>::hit_wall(std::uint32_t number, int side) {
     const Spin<D> spin_gain = departure.spin - spin(number);
     const Vec<D> gain = grain(number).mass * (departure.velocity - v);
     const WallCollision<D> collision{
-        now_, side, change_of(gas_, number, grain(number), r, v, Impulse<D>{gain, spin_gain})};
+        now_, side,
+        change_of(gas_, number, grain(number), r, v, spin(number), Impulse<D>{gain, spin_gain})};
     for (Observer<D>* observer : observers_) observer->on_wall(collision);
   }
   --until_base_moves_;
@@ -249,8 +249,8 @@ void EventLoop<D>::kick() {
   for (std::uint32_t i = 0; i < count; ++i) {
     const Vec<D> gain = velocities[i] - mean;
     const auto [r, v] = motion_now(i);
-    const Kick<D> kick{
-        now_, change_of(gas_, i, grain(i), r, v, Impulse<D>{grain(i).mass * gain, spins[i]})};
+    const Kick<D> kick{now_, change_of(gas_, i, grain(i), r, v, spin(i),
+                                       Impulse<D>{grain(i).mass * gain, spins[i]})};
     for (Observer<D>* observer : observers_) observer->on_kick(kick);
     renew_flight(i, r, v + gain);
     add_spin(i, spins[i]);
@@ -301,7 +301,7 @@ void EventLoop<D>::nudge(const std::vector<NewVelocity<D>>& velocities,
     const Vec<D> gain = grain(next.particle).mass * (next.velocity - v);
     const Kick<D> kick{now_,
                        change_of(gas_, next.particle, grain(next.particle), r, v,
-                                 Impulse<D>{gain, Spin<D>::Zero()}),
+                                 spin(next.particle), Impulse<D>{gain, Spin<D>::Zero()}),
                        KickCause::Nudge};
     for (Observer<D>* observer : observers_) observer->on_kick(kick);
     renew_flight(next.particle, r, next.velocity);

@@ -170,8 +170,8 @@ void EventQueue::next_bucket() {
   auto& bucket = buckets_[static_cast<std::size_t>(bucket_ & kInRow)];
   in_buckets_ -= bucket.size();
   current_.swap(bucket);
-  // Buckets are too narrow if the first events at the last rebuild were closer in time than usual,
-  // as after the start of a dense mixture.
+  // Buckets are too narrow if the first events at the last rebuild were closer in time than usual.
+  // That is so after the start of a dense mixture, where many particles nearly touch.
   empty_ += current_.empty();
   if (empty_ > beyond_current() / 2 + kBuckets) {
     std::vector<Event> events = take_all();

@@ -12,7 +12,7 @@
 // The calendar is a ladder queue with O(1) push and pop (event_queue.h). Rows hold the far future
 // unsorted. The current row is spread over buckets. Only the current bucket is sorted. The width of
 // the buckets follows from the density of the first events. Where a few hot particles crowd a
-// bucket, or most buckets are empty, the calendar is rebuilt after a counted amount of work.
+// bucket, or after about half as many empty buckets as events, the calendar is rebuilt.
 
 namespace clatter {
 

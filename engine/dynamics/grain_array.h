@@ -19,13 +19,14 @@ struct Radii {
 
 /// What the particles of a mixture are; empty if all particles are alike. Particles of up to 128
 /// kinds have a byte each. Otherwise each has a grain, and its radius once more in an array that
-/// searches for contacts read. EventLoop::restart copies the number of a kind to the particle's word.
+/// searches for contacts read. EventLoop::restart copies the number of a kind to the particle's
+/// word.
 class GrainArray {
  public:
   /// Takes the grains of all particles, and finds their kinds.
   void assign(const std::vector<Grain>& grains) {
     *this = {};
-    if (!find_kinds(grains)) kinds_.clear();
+    if (!find_kinds(grains)) *this = {};
     resize(grains.size());
     for (std::size_t i = 0; i < grains.size(); ++i) set(i, grains[i]);
   }
@@ -97,7 +98,7 @@ class GrainArray {
     return true;
   }
 
-  std::vector<Grain> kinds_;            // empty: too many
+  std::vector<Grain> kinds_;            // empty: too many, or all are alike
   std::vector<double> radii_of_kinds_;  // [kinds]
   LargeArray<std::uint8_t> numbers_;    // [N] of kinds
   LargeArray<Grain> grains_;            // [N] of too many kinds

@@ -33,7 +33,11 @@ template <int D>
 static GasMemory memory_of(const Scene& scene) {
   const auto count = static_cast<double>(final_count(scene));
   const double remainder = scene.box.maxCoeff() > kLongBox ? sizeof(Vec<D>) : 0.0;
-  const double grain = scene.species.empty() ? 0.0 : sizeof(Grain) + sizeof(double);
+  // Particles of few kinds have a byte each, see GrainArray.
+  const bool many_kinds =
+      std::ranges::any_of(scene.species, [](const Species& one) { return !!one.polydispersity; });
+  const double kind = scene.species.empty() ? 0.0 : 1.0;
+  const double grain = many_kinds ? sizeof(Grain) + sizeof(double) : kind;
   return {count * (kBytesPerParticle<D> + remainder + grain),
           scene.spins() ? count * sizeof(Spin<D>) : 0.0,
           scene.contact_time ? count * sizeof(double) : 0.0};

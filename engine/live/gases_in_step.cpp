@@ -140,8 +140,10 @@ void GasesInStep::go_back(double time) {
 }
 
 void GasesInStep::show(const View& view) {
+  const std::vector<Species>& species = selected().laws().species;
   for (const Gas& gas : gases_) {
-    if (gas.run->dimension() == dimension()) gas.run->show(view);
+    if (gas.run->dimension() != dimension()) continue;
+    gas.run->show(gas.run->laws().adapted(view, species));
   }
 }
 

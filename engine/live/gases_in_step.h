@@ -38,6 +38,7 @@ class GasesInStep final : public WatchedRun {
   double time() const override;
   const EventCounts& counts() const override { return selected().counts(); }
   int dimension() const override { return selected().dimension(); }
+  const Scene& laws() const override { return selected().laws(); }
   AnyState state() const override { return selected().state(); }
   std::unique_ptr<WatchedRun> copy() override { return selected().copy(); }
   bool prepare(const StopRequest& pause) override;

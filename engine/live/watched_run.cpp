@@ -33,6 +33,7 @@ class RunOf : public WatchedRun {
   double time() const override { return run_.simulation().time(); }
   const EventCounts& counts() const override { return run_.simulation().counts(); }
   int dimension() const override { return D; }
+  const Scene& laws() const override { return run_.laws(); }
   AnyState state() const override { return run_.simulation().state(); }
   std::unique_ptr<WatchedRun> copy() override;
   bool prepare(const StopRequest& pause) override { return run_.prepare(pause); }

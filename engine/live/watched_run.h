@@ -35,6 +35,8 @@ class WatchedRun {
   virtual const EventCounts& counts() const = 0;
   /// 2 for disks, 3 for spheres.
   virtual int dimension() const = 0;
+  /// The scene with the present laws, without its changes.
+  virtual const Scene& laws() const = 0;
   /// All particles at time().
   virtual AnyState state() const = 0;
 

@@ -1,5 +1,6 @@
 #include "engine/scene/field.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace clatter {
@@ -114,7 +115,9 @@ std::vector<NamedField> field_names(int dimension, const std::vector<std::string
     for (const QuantityTraits& traits : kQuantities) {
       if (!has_species(traits.quantity)) continue;
       for (const Field field : fields_of(traits.quantity, dimension)) {
-        names.emplace_back(name_of(field, species[s]), field.of(s));
+        const std::string name = name_of(field, species[s]);
+        const bool known = std::ranges::find(names, name, &NamedField::first) != names.end();
+        if (!known) names.emplace_back(name, field.of(s));
       }
     }
   }

@@ -72,7 +72,7 @@ enum class Sign : std::uint8_t { Positive, Negative, Either };
 enum class Kind : std::uint8_t {
   Average,         ///< over particles and collisions
   SpinAverage,     ///< over particles that spin
-  SpeciesAverage,  ///< over particles of one species of a mixture; of all it is 0
+  SpeciesAverage,  ///< over particles of one species of a mixture; there is none of all particles
   Residual         ///< of a balance equation
 };
 
@@ -241,7 +241,8 @@ std::vector<Field> all_fields(int dimension);
 /// The residuals, in the order of Conserved<D>.
 std::vector<Field> residual_fields(int dimension);
 
-/// The fields of all particles with their names, then those of each of these species.
+/// The fields of all particles with their names, then those of each of these species. Of fields
+/// with one name the first is in the list.
 std::vector<NamedField> field_names(int dimension, const std::vector<std::string>& species = {});
 
 /// The names of fields in measure.fields, one entry per field. A name may stand for several fields.

@@ -10,6 +10,19 @@ double Scene::packing_fraction() const {
   return clatter::packing_fraction(dimension(), of_diameters / box.prod());
 }
 
+View Scene::adapted(View of_other, const std::vector<Species>& others) const {
+  if (!of_other.field || of_other.field->species == Field::kNone) return of_other;
+  const auto number = static_cast<std::size_t>(of_other.field->species);
+  const auto own =
+      number < others.size() ? find_species(species, others[number].name) : std::nullopt;
+  if (own) {
+    of_other.field = of_other.field->of(*own);
+  } else {
+    of_other.field.reset();
+  }
+  return of_other;
+}
+
 double Scene::largest_diameter() const {
   double largest = species.empty() ? 1.0 : 0.0;
   for (const Species& one : species) largest = std::max(largest, one.largest_diameter());

@@ -143,6 +143,9 @@ struct Scene {
   int dimension() const { return static_cast<int>(box.size()); }
   /// Whether the box is periodic along an axis (0: x, 1: y, 2: z).
   bool periodic(int axis) const { return !walls[2 * axis]; }
+  /// The view of a gas with these species, for this scene. A field of a species becomes that of the
+  /// species of the same name. Without one there is no heatmap.
+  View adapted(View of_other, const std::vector<Species>& others) const;
   /// Share of the box that the particles fill: N pi / (4 Lx Ly) for disks of diameter 1,
   /// N pi / (6 Lx Ly Lz) for spheres.
   double packing_fraction() const;

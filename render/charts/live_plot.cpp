@@ -84,7 +84,8 @@ void draw_band(ImDrawList& list, const PlotFrame& frame, const Curve& curve) {
     return frame.at(curve.points[i] + Vec2(0.0, side * curve.errors[i]));
   };
   const auto shows = [&](std::size_t i) {
-    return std::isfinite(curve.points[i].y()) && std::isfinite(curve.errors[i]);
+    return frame.x.shows(curve.points[i].x()) && std::isfinite(curve.points[i].y()) &&
+           std::isfinite(curve.errors[i]);
   };
   for (std::size_t i = 1; i < curve.errors.size(); ++i) {
     if (!shows(i - 1) || !shows(i)) continue;

@@ -127,7 +127,8 @@ Legends AutoRanges::legends(const std::vector<const Snapshot*>& snapshots, const
   if (shows_field(first, view)) {
     const FieldMap& map = *first.field;
     legends.field = field_.legend(
-        label_of(map.field, dimension, map.species), view.field_range, map_of(map.field, view, ground),
+        label_of(map.field, dimension, map.species), view.field_range,
+        map_of(map.field, view, ground),
         largest([&](const Snapshot& gas) { return gas.field ? field_extent(gas, view) : 0.0; }),
         map.whole_window);
   }

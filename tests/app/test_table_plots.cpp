@@ -3,16 +3,18 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "app/view/table_plots.h"
+#include "engine/scene/scene_file.h"
 #include "tests/app/plot_checks.h"
 
 namespace clatter {
 
 /// The plots of a table of a gas without species.
 static std::vector<LivePlot> plots_of_table(const ResultTable& table, const ThemeColours& theme) {
-  return table_plots(table, Scene(), SpeciesTheory(), theme);
+  return table_plots(table, Scene(), History(), theme);
 }
 
 TEST_CASE("Plots: a histogram with logarithmic bins is over their middles") {
@@ -87,37 +89,72 @@ TEST_CASE("Plots: slabs have a curve each, the first and the last with names") {
   CHECK_FALSE(plots[0].curves[0].colour == plots[0].curves[2].colour);
 }
 
-// At gamma = 2 and D = 3 the velocity correlation is D gamma exp(-gamma t), and the squared
+/// A gas of light disks with a heavy one.
+static const char* const kTwoSpecies = R"(box.size = [30, 30]
+[particles]
+[[species]]
+name = "light"
+count = 100
+colour = "#010203"
+[[species]]
+name = "heavy"
+count = 1
+diameter = 2
+colour = "#040506"
+)";
+
+// With the friction gamma the velocity correlation is D gamma exp(-gamma t), and the squared
 // displacement its double integral: 4 D (t - (1 - exp(-gamma t))/gamma).
 TEST_CASE("Plots: a species has its colour, and theory beside its diffusion") {
-  Scene scene;
-  scene.species.resize(2);
-  scene.species[0].name = "light";
-  scene.species[0].colour = Rgb{1, 2, 3};
-  scene.species[1].name = "heavy";
-  scene.species[1].colour = Rgb{4, 5, 6};
-  const SpeciesTheory theory = {{1.0, 1.0}, true, {NAN, 2.0}, {NAN, 3.0}};
+  const auto scene = std::make_shared<const Scene>(parse_scene(kTwoSpecies, "s.toml"));
+  History history;
+  history.predict(scene);
+  const SpeciesTheory& theory = history.species_theory();
+  const double friction = theory.frictions[1], diffusion = theory.diffusions[1];
+  REQUIRE(diffusion * friction == doctest::Approx(theory.temperatures[1] / 4.0));
   const ResultTable table = {"mean_squared_displacement",
                              {{"time", "t", {0.0, 0.5, 1.0}},
                               {"total", "a^2", {0.0, 2.0, 4.0}},
                               {"total_light", "a^2", {0.0, 3.0, 5.0}},
                               {"x_light", "a^2", {0.0, 1.0, 2.0}},
                               {"total_heavy", "a^2", {0.0, 2.2, 6.8}}}};
-  const LivePlot plot = table_plots(table, scene, theory, kDarkTheme).at(0);
-  REQUIRE(plot.curves.size() == 4);  // none along the axes of a species
+  const LivePlot plot = table_plots(table, *scene, history, kDarkTheme).at(0);
+  REQUIRE(plot.curves.size() == 5);  // none along the axes of a species
   CHECK(curve_of(plot, "total").colour == kDarkTheme.text);
   CHECK(curve_of(plot, "total light").colour == Colour{1, 2, 3});
   const Curve& einstein = curve_of(plot, "heavy, theory");
   CHECK(einstein.dashed);
   CHECK(einstein.colour == Colour{4, 5, 6});
   CHECK(einstein.points[0].y() == 0.0);
-  CHECK(einstein.points[1].y() == doctest::Approx(12.0 * (0.5 - 0.5 * (1.0 - std::exp(-1.0)))));
+  CHECK(einstein.points[1].y() ==
+        doctest::Approx(4.0 * diffusion * (0.5 - (1.0 - std::exp(-0.5 * friction)) / friction)));
   const ResultTable velocities = {
       "velocity_autocorrelation",
       {{"time", "t", {0.0, 1.0}}, {"mean_heavy", "a^2/t^2", {6.0, 1.0}}}};
-  const LivePlot decay = table_plots(velocities, scene, theory, kDarkTheme).at(0);
-  CHECK(curve_of(decay, "heavy, theory").points[0].y() == doctest::Approx(6.0));
-  CHECK(curve_of(decay, "heavy, theory").points[1].y() == doctest::Approx(6.0 * std::exp(-2.0)));
+  const LivePlot decay = table_plots(velocities, *scene, history, kDarkTheme).at(0);
+  const Curve& expected = curve_of(decay, "heavy, theory");
+  CHECK(expected.points[0].y() == doctest::Approx(diffusion * friction));
+  CHECK(expected.points[1].y() == doctest::Approx(diffusion * friction * std::exp(-friction)));
+}
+
+TEST_CASE("Plots: columns belong to the species with the longest name at their end") {
+  Scene scene = parse_scene(kTwoSpecies, "s.toml");
+  scene.species[0].name = "x";
+  scene.species[1].name = "heavy_x";
+  const ResultTable table = {"mean_squared_displacement",
+                             {{"time", "t", {0.0, 0.5}},
+                              {"drift_x", "a", {0.0, 2.0}},
+                              {"total_x", "a^2", {0.0, 3.0}},
+                              {"total_heavy_x", "a^2", {0.0, 2.2}}}};
+  const std::vector<LivePlot> plots = table_plots(table, scene, History(), kDarkTheme);
+  CHECK(curve_of(plots.at(0), "drift x").colour == Colour{230, 159, 0});
+  CHECK(curve_of(plots.at(1), "total x").colour == Colour{1, 2, 3});
+  CHECK(curve_of(plots.at(1), "total heavy x").colour == Colour{4, 5, 6});
+  const ResultTable velocities = {
+      "velocity_distribution",
+      {{"low", "1", {-1.0, 0.0}}, {"high", "1", {0.0, 1.0}}, {"y_heavy_x", "1", {0.5, 0.5}}}};
+  CHECK(curve_of(table_plots(velocities, scene, History(), kDarkTheme).at(0), "y heavy x").colour ==
+        Colour{4, 5, 6});
 }
 
 TEST_CASE("Plots: the copied numbers of a plot are its curves, a table each") {

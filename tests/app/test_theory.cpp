@@ -208,6 +208,19 @@ TEST_CASE("Theory: an elastic mixture has Z, collision rates and temperatures") 
   CHECK(collision_rate(scene, T) == doctest::Approx(2.0 * all / 150.0).epsilon(1e-12));
 }
 
+// A collision with a small disk takes 2/5 of the relative velocity of a large one, and one with a
+// large disk its whole: 2 (1 + alpha)/D times the share of the reduced mass.
+TEST_CASE("Theory: an elastic mixture has the friction and the diffusion of a particle") {
+  const json theory = theory_json(mixture_of(1.0));
+  const double with_small = item_in(theory, "pairs", kBothSpecies, "collision_rate") / 50.0;
+  const double with_large =
+      2.0 * item_in(theory, "pairs", {"large", "large"}, "collision_rate") / 50.0;
+  const double friction = 300.0 / 296.0 * (0.4 * with_small + with_large);
+  CHECK(item_in(theory, "species", "large", "friction") == doctest::Approx(friction));
+  CHECK(item_in(theory, "species", "large", "diffusion") ==
+        doctest::Approx(item_in(theory, "species", "large", "temperature") / (4.0 * friction)));
+}
+
 TEST_CASE("Theory: mixtures that cool have ratios, and kicked ones temperatures") {
   Scene scene = mixture_of(0.9);
   const json cooling = theory_json(scene);

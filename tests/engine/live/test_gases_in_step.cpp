@@ -316,3 +316,26 @@ TEST_CASE("Gases in step: a view reaches the gases of the selected one's dimensi
   CHECK(shown.others[0].snapshot.field->field == Field(Quantity::Temperature));
   CHECK(shown.others[1].snapshot.field->field == Field(Quantity::Velocity, 2));
 }
+
+TEST_CASE("Gases in step: a field of a species is that of the same name, or none") {
+  Scene mixture = stepping_disks(0.9);
+  mixture.species.resize(2);
+  for (Species& one : mixture.species) one.count = 40;
+  mixture.species[0].name = "light";
+  mixture.species[1].name = "heavy";
+  Scene renamed = mixture;
+  renamed.species[0].name = "heavy";
+  renamed.species[1].name = "other";
+  GasesInStep gases = in_step({mixture, stepping_disks(0.8), renamed}, 0);
+  View view = mixture.view;
+  view.field = Field(Quantity::Density).of(1);
+  gases.show(view);
+  run_in_step_to(gases, 0.5);
+  const Frame frame = frame_in_step(gases);
+  REQUIRE(frame.snapshot.field);
+  CHECK(frame.snapshot.field->species == "heavy");
+  CHECK_FALSE(frame.others[0].snapshot.field);
+  REQUIRE(frame.others[1].snapshot.field);
+  CHECK(frame.others[1].snapshot.field->field == Field(Quantity::Density).of(0));
+  CHECK(frame.others[1].snapshot.field->species == "heavy");
+}

@@ -289,15 +289,18 @@ TEST_CASE("Mixture theory: Einstein's relation gives Enskog's coefficients of se
   }
 }
 
-// A pair exchanges all of its relative velocity with its centre of mass at rest: the velocity of
-// one decays by 2 (1 + alpha)/D times 1/2 a collision, relative to the other one's opposite
-// velocity.
-TEST_CASE("Mixture theory: the others carry the opposite momentum of a heavy particle") {
-  MixtureGas gas = binary(3, 0.1, {900, 1}, 2.0, 100.0, 0.8);
-  const MixtureTemperatures equal = gas.equal(1.0);
-  const double rate = gas.collision_rate(1, 0, equal);
-  CHECK(gas.friction(1, equal) ==
-        doctest::Approx(1000.0 / 900.0 * 2.0 * 1.8 / 3.0 * (1.0 / 101.0) * rate));
+// In a pair that is alone both velocities are shares of the relative one, whatever the masses. A
+// collision takes the share 1 + alpha of its normal component, and the mean of the squared cosine
+// of the angle between them is 2/(D + 1), weighted with the cosine.
+TEST_CASE("Mixture theory: two particles alone damp each other equally") {
+  for (const double mass : {1.0, 100.0}) {
+    const MixtureGas gas = binary(3, 0.01, {1, 1}, 2.0, mass, 0.8);
+    const MixtureTemperatures equal = gas.equal(1.0);
+    for (const std::size_t one : {0, 1}) {
+      CHECK(gas.friction(one, equal) ==
+            doctest::Approx(2.0 * 1.8 / 3.0 * gas.collision_rate(one, 1 - one, equal)));
+    }
+  }
 }
 
 }  // namespace clatter::mixture_theory

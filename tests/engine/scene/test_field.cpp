@@ -104,6 +104,19 @@ TEST_CASE("Fields: a heatmap shows a field of one species, by its name") {
   }
 }
 
+TEST_CASE("Field: of names that several fields would have, the first field has it") {
+  const std::vector<NamedField> names = field_names(2, {"x", "heavy", "x_heavy"});
+  std::set<std::string> different;
+  for (const auto& [name, field] : names) different.insert(name);
+  CHECK(different.size() == names.size());
+  const auto field_of = [&](const char* name) {
+    return std::ranges::find(names, name, &NamedField::first)->second;
+  };
+  CHECK(field_of("temperature_x") == Field(Quantity::Temperature, 0));
+  CHECK(field_of("temperature_x_heavy") == Field(Quantity::Temperature, 0).of(1));
+  CHECK(field_of("density_x") == Field(Quantity::Density).of(0));
+}
+
 TEST_CASE("Fields: drag needs species") {
   const std::string message = field_refusal(kRough + "measure.fields = [\"drag\"]\n");
   CHECK(message.starts_with("s.toml:4:"));
