@@ -31,6 +31,8 @@ Label label_of(ColourBy colour_by, int dimension) {
       return {"spin ω", "", Sign::Either, spin};
     case ColourBy::Depth:
       return {"depth", "", Sign::Either, "a"};
+    case ColourBy::Diameter:
+      return {"diameter d", "", Sign::Positive, "a"};
   }
   return {""};
 }

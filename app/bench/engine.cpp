@@ -133,8 +133,9 @@ Json print_rates(const std::vector<EngineCell>& cells, int dimension,
     if (species.empty()) {
       r = measure_engine(elastic_gas(count, fraction, dimension), equilibration);
     } else {
-      r = with_dimension(
-          dimension, [&](auto d) { return measure_mixture<d>(species, fraction, equilibration); });
+      r = with_dimension(dimension, [&, phi = fraction](auto d) {
+        return measure_mixture<d>(species, phi, equilibration);
+      });
     }
     r.fraction = fraction;  // the box differs by rounding
     rates.push_back(r);

@@ -18,6 +18,7 @@ static bool shows_in(ColourBy colour_by, const Scene& scene) {
     case ColourBy::Spin:
       return scene.spins();
     case ColourBy::Species:
+    case ColourBy::Diameter:
       return !scene.species.empty();
     default:
       return true;

@@ -34,14 +34,15 @@ inline constexpr std::array<Named<WallKind>, 5> kWallKinds = {
      {"sawtooth", WallKind::Sawtooth},
      {"sinusoidal", WallKind::Sinusoidal}}};
 
-inline constexpr std::array<Named<ColourBy>, 8> kColourings = {{{"none", ColourBy::None},
+inline constexpr std::array<Named<ColourBy>, 9> kColourings = {{{"none", ColourBy::None},
                                                                 {"speed", ColourBy::Speed},
                                                                 {"velocity_x", ColourBy::VelocityX},
                                                                 {"velocity_y", ColourBy::VelocityY},
                                                                 {"velocity_z", ColourBy::VelocityZ},
                                                                 {"spin", ColourBy::Spin},
                                                                 {"depth", ColourBy::Depth},
-                                                                {"species", ColourBy::Species}}};
+                                                                {"species", ColourBy::Species},
+                                                                {"diameter", ColourBy::Diameter}}};
 
 inline constexpr std::array<Named<Palette>, 3> kPalettes = {
     {{"viridis", Palette::Viridis}, {"inferno", Palette::Inferno}, {"cividis", Palette::Cividis}}};

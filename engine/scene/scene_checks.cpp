@@ -81,8 +81,10 @@ static void check_colour(const Scene& scene, const toml::table& root, const std:
                     "disks have no velocity along z and no depth",
                     "choose another quantity, or give box.size a third number");
   }
-  if (colour_by == ColourBy::Species && scene.species.empty()) {
-    throw UserError(place_of(root, "view.colour_by", file), "the particles have no species",
+  const bool of_mixtures = colour_by == ColourBy::Species || colour_by == ColourBy::Diameter;
+  if (of_mixtures && scene.species.empty()) {
+    throw UserError(place_of(root, "view.colour_by", file),
+                    "the particles have no species, and are alike",
                     "choose another quantity, or give the scene [[species]]");
   }
   if (colour_by != ColourBy::Spin || scene.spins()) return;

@@ -12,7 +12,17 @@
 namespace clatter {
 
 /// Quantity that a particle's colour shows.
-enum class ColourBy { None, Speed, VelocityX, VelocityY, VelocityZ, Spin, Depth, Species };
+enum class ColourBy {
+  None,
+  Speed,
+  VelocityX,
+  VelocityY,
+  VelocityZ,
+  Spin,
+  Depth,
+  Species,
+  Diameter
+};
 
 /// Whether the colours of particles show the values of a quantity, on a scale.
 constexpr bool has_scale(ColourBy colour_by) {

@@ -127,8 +127,8 @@ void visit_lecture(Visitor& io, Lecture& lecture) {
 inline constexpr auto kViewKeys = key_table(
     "view render",
     {{"colour_by", "",
-      "Quantity that colours the particles. Spin needs rough particles or walls, and species "
-      "`[[species]]`."},
+      "Quantity that colours the particles. Spin needs rough particles or walls, species and "
+      "diameter need `[[species]]`."},
      {"field", "",
       "Field of the heatmap below the particles, in a mixture also of one species. Without a value "
       "there is none."},

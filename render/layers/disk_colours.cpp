@@ -32,6 +32,8 @@ double disk_value(const Snapshot& snapshot, ColourBy colour_by, std::size_t i, c
                                         : snapshot.spins.col(column).norm();
     case ColourBy::Depth:
       return away.dot(snapshot.positions.col(column) - 0.5 * snapshot.box);
+    case ColourBy::Diameter:
+      return 2.0 * snapshot.radius(i);
   }
   return 0.0;
 }

@@ -21,6 +21,7 @@
 #include "engine/error.h"
 #include "engine/measure/measurement.h"
 #include "engine/run/scheduled_run.h"
+#include "engine/scene/act_checks.h"
 #include "engine/scene/key_lister.h"
 #include "engine/scene/scene_file.h"
 #include "engine/scene/scene_keys.h"
@@ -177,10 +178,11 @@ void draw(const Scene& scene, const Snapshot& snapshot) {
 // JSON writes a number that is not finite as null.
 void require_finite(const nlohmann::ordered_json& json, const std::string& name) {
   for (const auto& [key, value] : json.items()) {
-    // A column that no particle visits has no temperature, and few samples have no errors.
+    // A column that no particle visits has no temperature, few samples have no errors, and a species
+    // has no mean position along periodic axes.
     const bool observable =
         std::ranges::find(kObservables, key, &Named<ObservableKind>::name) != kObservables.end();
-    if (key == "profile" || observable) continue;
+    if (key == "profile" || key == "mean_position" || observable) continue;
     if (value.is_null()) {
       std::fprintf(stderr, "%s.%s is not finite\n", name.c_str(), key.c_str());
       std::abort();

@@ -21,7 +21,8 @@ TEST_CASE("Label: colours of particles have a symbol, an axis, a sign and a unit
         Row{ColourBy::VelocityZ, 3, {"velocity v", "z", Sign::Either, "a/t"}},
         Row{ColourBy::None, 2, {""}}, Row{ColourBy::Spin, 2, {"spin ω", "", Sign::Either, "1/t"}},
         Row{ColourBy::Spin, 3, {"spin |ω|", "", Sign::Positive, "1/t"}},
-        Row{ColourBy::Depth, 3, {"depth", "", Sign::Either, "a"}}}) {
+        Row{ColourBy::Depth, 3, {"depth", "", Sign::Either, "a"}},
+        Row{ColourBy::Diameter, 2, {"diameter d", "", Sign::Positive, "a"}}}) {
     CHECK(label_of(row.colour_by, row.dimension) == row.label);
   }
 }

@@ -258,6 +258,7 @@ TEST_CASE("Scene file: further words are the choices of their names") {
   CHECK(view_with("colour_by = 'speed'").colour_by == ColourBy::Speed);
   CHECK(view_with("colour_by = 'velocity_x'").colour_by == ColourBy::VelocityX);
   CHECK(view_with("colour_by = 'velocity_y'").colour_by == ColourBy::VelocityY);
+  CHECK(says(refusal_of([&] { view_with("colour_by = 'diameter'"); }), "have no species"));
   CHECK(view_with("palette = 'viridis'").palette == Palette::Viridis);
   CHECK(view_with("palette = 'cividis'").palette == Palette::Cividis);
   CHECK(view_with("arrows = 'velocity'").arrows == Quantity::Velocity);

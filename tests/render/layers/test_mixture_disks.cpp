@@ -165,6 +165,17 @@ TEST_CASE("Mixture disks: each has the colour of its species, and plain colours 
   CHECK(difference(colour_at(140), {10, 90, 220}) <= 1);
 }
 
+TEST_CASE("Mixture disks: each has the colour of its diameter on a scale") {
+  const auto context = open_context(Backend::Auto);
+  const Snapshot snapshot = unequal_disks({{{50.0, 60.0}, 30.0}, {{140.0, 60.0}, 10.0}});
+  const ColourScale scale{colour_map(Palette::Viridis), 0.0, 120.0};
+  const Canvas canvas = blank_canvas(context->gl(), kUnitSize);
+  DiskLayer(context->gl()).draw(snapshot, kUnitProjection, {ColourBy::Diameter, scale, {}});
+  const Image image = canvas.read();
+  CHECK(difference(pixel(image, 50, 60), scale(60.0)) <= 1);
+  CHECK(difference(pixel(image, 140, 60), scale(20.0)) <= 1);
+}
+
 TEST_CASE("Mixture disks: the marks of their angles have the sizes of the disks") {
   const auto context = open_context(Backend::Auto);
   Snapshot snapshot = unequal_disks({{{50.0, 60.0}, 40.0}, {{150.0, 60.0}, 15.0}});
