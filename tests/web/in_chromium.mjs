@@ -4,7 +4,7 @@ import {Browser, serve} from './browser.mjs';
 import {installed, skip} from './cases.mjs';
 
 const chromium = installed('chromium', 'chromium-browser') || skip('the package chromium is not installed');
-export const [folder, files, chosen = ''] = process.argv.slice(2);
+export const [folder, chosen = ''] = process.argv.slice(2);
 export const server = await serve(folder);
 
 // A page of another origin that shows the gas of the same query and fragment in an iframe.

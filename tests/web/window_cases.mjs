@@ -88,7 +88,7 @@ test('lecture mode has a large plot, a timeline and tools, and Esc ends it', asy
 });
 
 test('a drag of the slider of restitution cools the gas', async () => {
-  await open('vibrated&view.speed=5');
+  await open('vibrated&view.speed=20');
   const before = await browser.until_last('status', 'e.time > 5');
   await drag('particles.restitution', 0.3);
   const {time} = await browser.until_last('status', 'e.restitution < 0.8');
