@@ -106,6 +106,7 @@ SceneInput read_keys(const toml::table& root, const std::string& file, bool spin
 Scene read_scene(const toml::table& root, const std::string& file, StartFile start_file,
                  const std::function<void(Scene&)>& load_state) {
   check_dimension(root, file);
+  check_species_count(root, file);
   SceneInput any;
   any.scene = default_scene(dimension_of(root));
   any.species_names = species_names(root);

@@ -113,13 +113,16 @@ static void check_species_walls(const SceneInput& input, const toml::table& root
   }
 }
 
+void check_species_count(const toml::table& root, const std::string& file) {
+  const toml::array* const species = root["species"].as_array();
+  if (!species || species->size() <= kMaxSpecies) return;
+  throw UserError(place_in(root, "species", kMaxSpecies, "name", file),
+                  "there are " + std::to_string(species->size()) + " species",
+                  "give at most " + std::to_string(kMaxSpecies) +
+                      "; a species can have unequal diameters, by polydispersity");
+}
+
 void check_species(const SceneInput& input, const toml::table& root, const std::string& file) {
-  if (input.species.size() > kMaxSpecies) {
-    throw UserError(place_in(root, "species", kMaxSpecies, "name", file),
-                    "there are " + std::to_string(input.species.size()) + " species",
-                    "give at most " + std::to_string(kMaxSpecies) +
-                        "; a species can have unequal diameters, by polydispersity");
-  }
   check_names(input, root, file);
   check_spreads(input, root, file);
   check_masses(input, root, file);

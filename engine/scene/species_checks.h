@@ -8,9 +8,13 @@
 
 namespace clatter {
 
-/// Throws UserError if species have no names, the same names, or impossible diameters, if a pair
-/// has an unknown species or comes twice, and if there are too many species. `root` is the document
-/// of the input, and `file` the name for errors.
+/// Throws UserError if a document has too many species, before its keys are read: the values of
+/// some keys contain the names of all species. `file` is the name for errors.
+void check_species_count(const toml::table& root, const std::string& file);
+
+/// Throws UserError if species have no names, the same names, or impossible diameters, and if a
+/// pair has an unknown species or comes twice. `root` is the document of the input, and `file` the
+/// name for errors.
 void check_species(const SceneInput& input, const toml::table& root, const std::string& file);
 
 /// Gives each species of the scene its number of particles. With a start state of a file it is 0
