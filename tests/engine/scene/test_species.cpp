@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -217,6 +218,23 @@ TEST_CASE("Species: overrides address species and pairs by their names") {
   CHECK(scene.wall(kRight, 2).restitution == 0.2);
   CHECK(scene.pair_law(2, 2).restitution == 0.6);
   CHECK_FALSE(scene.pair_law(2, 2).roughness.any());
+}
+
+// The lists of fields contain the names of all species, so they must not be made first.
+TEST_CASE("Species: too many are refused at once") {
+  const auto refusal = [](int count) {
+    std::string text;
+    for (int k = 0; k < count; ++k) {
+      text += "[[species]]\nname = \"s" + std::to_string(k) + "\"\ncount = 1\n";
+    }
+    return refusal_of([&] { parse_scene(text, "s.toml"); });
+  };
+  CHECK_FALSE(says(refusal(100), "species; give at most"));
+  const auto began = std::chrono::steady_clock::now();
+  const std::string message = refusal(20000);
+  CHECK(std::chrono::steady_clock::now() - began < std::chrono::seconds(10));
+  CHECK(message.starts_with("s.toml:302:"));
+  CHECK(says(message, "give at most 100"));
 }
 
 TEST_CASE("Species: mistakes are reported with their place and a fix") {
