@@ -187,14 +187,18 @@ void Session::remove_gas() {
     std::erase_if(*edits, [&](const Edit& edit) { return edit.gas == gas_; });
     for (Edit& edit : *edits) edit.gas -= edit.gas > gas_ ? 1 : 0;
   }
+  const std::vector<Species> species = scene().species;
   gases_.erase(gases_.begin() + static_cast<std::ptrdiff_t>(gas_));
   seen_.clear();
   gas_ -= gas_ > 0 ? 1 : 0;
+  view_ = scene().adapted(view_, species);
 }
 
 void Session::select(std::size_t gas) {
   if (gas == gas_ || gas >= gases_.size()) return;
+  const std::vector<Species> species = scene().species;
   gas_ = gas;
+  view_ = scene().adapted(view_, species);
   picked_.reset();
   log_.event("select", {{"gas", gas_}, {"command", sent_ + 1}});
   send(command::SelectGas{gas_});

@@ -72,7 +72,7 @@ enum class Sign : std::uint8_t { Positive, Negative, Either };
 enum class Kind : std::uint8_t {
   Average,         ///< over particles and collisions
   SpinAverage,     ///< over particles that spin
-  SpeciesAverage,  ///< over particles of one species of a mixture; there is none of all particles
+  SpeciesAverage,  ///< over the particles of one species; all particles together have no value
   Residual         ///< of a balance equation
 };
 

@@ -13,6 +13,16 @@ namespace clatter {
 
 using nlohmann::json;
 
+// The columns of disks.
+static void check_columns_of_disks(const std::string& printed, const json& rows) {
+  check_columns(printed, rows, "N phi Mcoll/s setup s bytes/disk",
+                {{"count", " %.0f"},
+                 {"area_fraction", " %.3f"},
+                 {"million_collisions_per_cpu_second", " %.3f"},
+                 {"setup_seconds", " %.3f"},
+                 {"bytes_per_disk", " %.0f"}});
+}
+
 TEST_CASE("Bench: the engine's table is the default, and a cell of it has its numbers") {
   const Shell shell;
   for (const std::string name : {"", " engine"}) {
@@ -22,12 +32,7 @@ TEST_CASE("Bench: the engine's table is the default, and a cell of it has its nu
     CHECK(outcome.code == 0);
     const json rows = json::parse(shell.read("cell.json"));
     REQUIRE(rows.size() == 1);
-    check_columns(outcome.out, rows, "N phi Mcoll/s setup s bytes/disk",
-                  {{"count", " %.0f"},
-                   {"area_fraction", " %.3f"},
-                   {"million_collisions_per_cpu_second", " %.3f"},
-                   {"setup_seconds", " %.3f"},
-                   {"bytes_per_disk", " %.0f"}});
+    check_columns_of_disks(outcome.out, rows);
     CHECK(rows[0]["count"] == 100);
     CHECK(rows[0]["area_fraction"] == 0.3);
     // The memory of so few disks is within the noise of the program. A sanitizer adds memory.
@@ -90,12 +95,7 @@ TEST_CASE("Bench: the set-up alone has no rate") {
   CHECK(rows[0]["million_collisions_per_cpu_second"].is_null());
   CHECK(rows[0]["setup_seconds"] > 1e-3);
   CHECK(rows[0]["count"] == 20'020);
-  check_columns(outcome.out, rows, "N phi Mcoll/s setup s bytes/disk",
-                {{"count", " %.0f"},
-                 {"area_fraction", " %.3f"},
-                 {"million_collisions_per_cpu_second", " %.3f"},
-                 {"setup_seconds", " %.3f"},
-                 {"bytes_per_disk", " %.0f"}});
+  check_columns_of_disks(outcome.out, rows);
 }
 
 TEST_CASE("Bench: a cell of the table of cores has the gas as a whole and in tiles") {

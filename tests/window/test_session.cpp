@@ -97,6 +97,37 @@ void fork_and_act(SessionDriver& driver) {
 
 }  // namespace
 
+TEST_CASE("Session: a heatmap of a species leaves with the gas that has it") {
+  SessionDriver driver;
+  Session& session = driver.session;
+  const Scene mixture = parse_scene(R"(
+      box.size = [16.0, 12.0]
+      [[species]]
+      name = "light"
+      count = 20
+      [[species]]
+      name = "heavy"
+      count = 5
+      mass = 4.0
+      [view]
+      field = "temperature_heavy")",
+                                    "mixture");
+  session.open(mixture, 7, false, {parse_scene(SessionDriver::kScene, "gas")});
+  driver.answer();
+  REQUIRE(session.gases() == 2);
+  CHECK(session.view().field == Field(Quantity::Temperature).of(1));
+  driver.go_to(0.5);
+  REQUIRE(session.frame().snapshot.field);
+  CHECK(session.frame().snapshot.field->species == "heavy");
+  CHECK_FALSE(session.frame().others[0].snapshot.field);
+  session.select(1);
+  driver.answer();
+  CHECK_FALSE(session.view().field);
+  driver.go_to(1.0);
+  CHECK_FALSE(session.frame().snapshot.field);
+  CHECK_FALSE(session.recorded(session.frame()).view.field);
+}
+
 TEST_CASE("Session: undo removes the last acts that are alike, and redo brings them back") {
   SessionDriver driver;
   Session& session = driver.session;

@@ -290,8 +290,8 @@ TEST_CASE("Mixture theory: Einstein's relation gives Enskog's coefficients of se
 }
 
 // In a pair that is alone both velocities are shares of the relative one, whatever the masses. A
-// collision takes the share 1 + alpha of its normal component, and the mean of the squared cosine
-// of the angle between them is 2/(D + 1), weighted with the cosine.
+// collision takes the share 1 + alpha of its normal component: on average 2 (1 + alpha)/(D + 1) of
+// the whole. Fast pairs collide more often, which makes it 2 (1 + alpha)/D of a mean velocity.
 TEST_CASE("Mixture theory: two particles alone damp each other equally") {
   for (const double mass : {1.0, 100.0}) {
     const MixtureGas gas = binary(3, 0.01, {1, 1}, 2.0, mass, 0.8);
