@@ -83,7 +83,7 @@ void TimeStepped::hit_walls() {
       const Vec2 before = velocities_[i];
       if (inward * before[axis_] >= 0.0) continue;
       velocities_[i] =
-          reflect<2>(before, axis_, inward, walls_[end].restitution,
+          reflect<2>(before, inward * Vec2::Unit(axis_), walls_[end].restitution,
                      walls_[end].kind == WallKind::Driven ? walls_[end].drive_speed : 0.0);
       const double gained = velocities_[i][axis_] - before[axis_];
       sums_.wall_impulse += std::fabs(gained);

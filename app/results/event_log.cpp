@@ -96,7 +96,8 @@ void append_record(std::vector<double>& records, const Model<D>& model, double t
                    const WallCollision<D>& collision, bool spins) {
   const ParticleChange<D>& change = collision.particle;
   records.insert(records.end(),
-                 {time, 1.0 + collision.side, static_cast<double>(change.particle), -1.0});
+                 {time, collision.at_wall() ? 1.0 + collision.side : 7.0 + collision.fixture,
+                  static_cast<double>(change.particle), -1.0});
   const Vec<D> none = Vec<D>::Constant(kNone);
   add(records, model.domain().wrapped(change.position));
   add(records, none);
@@ -178,7 +179,8 @@ void fill(const H5::H5File& file, const std::filesystem::path& records_path,
   const H5::Group root = file.openGroup("/");
   write_text(root, "units", kUnits);
   write_text(root, "kinds",
-             "0: particles; 1: left, 2: right, 3: bottom, 4: top, 5: back, 6: front wall");
+             "0: particles; 1: left, 2: right, 3: bottom, 4: top, 5: back, 6: front wall; "
+             "7 and above: fixtures, the obstacles of the scene first");
   std::vector<GrowingDataset> datasets;
   for (const EventQuantity& quantity : quantities) datasets.push_back(dataset_of(quantity, root));
   const std::size_t size = record_size(quantities);

@@ -58,6 +58,20 @@ std::vector<std::pair<std::string, Estimate>> estimates_of(const Measured& measu
     add(place + "collision_rate", pair.collision_rate);
     add(place + "dissipated", pair.dissipated);
   }
+  for (const FixtureMeans& fixture : measured.fixtures) {
+    const std::string place = "fixtures." + fixture.name + '.';
+    const auto add_list = [&](const std::string& name, const std::vector<Estimate>& components) {
+      for (std::size_t k = 0; k < components.size(); ++k) {
+        add(place + name + '.' + std::to_string(k), components[k]);
+      }
+    };
+    add_list("force", fixture.force);
+    add_list("torque", fixture.torque);
+    add(place + "power", fixture.power);
+    for (const auto& [species, rate] : fixture.hits) {
+      add(place + "hits" + (species.empty() ? "" : '.' + species), rate);
+    }
+  }
   for (const ObservableResult& observable : measured.observables) {
     for (const auto& [name, mean] : observable.means) add(name, mean);
   }
@@ -81,12 +95,14 @@ static Json& item_about(Json& list, const char* key, const Json& species) {
 Json& place_of_estimate(Json& result, const std::string& name) {
   const std::size_t first = name.find('.'), second = name.find('.', first + 1);
   const std::string group = name.substr(0, first);
-  if (group != "species" && group != "pairs") return result[estimate_pointer(name)];
+  if (group != "species" && group != "pairs" && group != "fixtures") {
+    return result[estimate_pointer(name)];
+  }
   const std::string about = name.substr(first + 1, second - first - 1);
   const std::size_t plus = about.find('+');
-  Json& item = group == "species" ? item_about(result[group], "name", about)
-                                  : item_about(result[group], "species",
-                                               {about.substr(0, plus), about.substr(plus + 1)});
+  Json& item = group != "pairs" ? item_about(result[group], "name", about)
+                                : item_about(result[group], "species",
+                                             {about.substr(0, plus), about.substr(plus + 1)});
   return item[estimate_pointer(name.substr(second + 1))];
 }
 

@@ -90,6 +90,8 @@ static void show_collision(const char* which, const ParticleCollision& collision
   if (collision.partner) {
     ImGui::TextDisabled("%s t = %.4f, %s %u", which, collision.time, disks ? "disk" : "sphere",
                         *collision.partner);
+  } else if (!collision.fixture.empty()) {
+    ImGui::TextDisabled("%s t = %.4f, %s", which, collision.time, collision.fixture.c_str());
   } else {
     ImGui::TextDisabled("%s t = %.4f, %s wall", which, collision.time,
                         kSideNames[static_cast<std::size_t>(collision.side)]);

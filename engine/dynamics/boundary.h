@@ -66,6 +66,8 @@ class Boundary {
 
   /// +1 for the near wall of an axis, -1 for the far one: the direction into the box.
   static double inward(int side) { return side % 2 ? -1.0 : 1.0; }
+  /// The unit vector of a wall into the box.
+  static Vec<D> normal(int side) { return inward(side) * Vec<D>::Unit(side / 2); }
 
  private:
   const Model<D>& model_;

@@ -86,6 +86,8 @@ class CellGrid {
   /// -1.
   void move(std::uint32_t particle, const IntVec<D>& cell, int axis, int step, int reach = 1);
 
+  /// The number of a cell, from 0 to the product of counts().
+  std::size_t number_of(const IntVec<D>& cell) const { return index(cell); }
   /// Number of cells along each axis.
   const IntVec<D>& counts() const { return counts_; }
   /// The cell that holds a position inside the subdomain.

@@ -15,8 +15,19 @@ static std::string rounded(double number) {
   return text;
 }
 
-static std::string partner_name(std::uint32_t partner) {
-  if (partner < kWall) return "particle " + std::to_string(partner);
+template <int D>
+static const Fixture<D>& fixture_of(const Model<D>& model, std::uint32_t piece) {
+  std::size_t number = 0;
+  for (; piece >= model.fixtures[number].pieces.size(); ++number) {
+    piece -= static_cast<std::uint32_t>(model.fixtures[number].pieces.size());
+  }
+  return model.fixtures[number];
+}
+
+template <int D>
+static std::string partner_name(const Model<D>& model, std::uint32_t partner) {
+  if (partner < kPiece) return "particle " + std::to_string(partner);
+  if (partner < kWall) return fixture_of(model, partner - kPiece).name;
   return std::string("the ") + kSideNames[partner - kWall] + " wall";
 }
 
@@ -114,16 +125,20 @@ PhysicalStop divergence(const Model<D>& model, double time, double temperature, 
                                       "restitution of particles or walls"));
 }
 
-PhysicalStop crowding(const Watchdog& watchdog, double time) {
+template <int D>
+PhysicalStop crowding(const Model<D>& model, const Watchdog& watchdog, double time) {
   const auto [particle, partner] = watchdog.busiest_pair();
-  return PhysicalStop("particle " + std::to_string(particle) + " and " + partner_name(partner) +
+  return PhysicalStop("particle " + std::to_string(particle) + " and " + partner_name<D>(model, partner) +
                       " have no room between them at t = " + rounded(time) +
                       ", and collide without end; enlarge the box, or remove particles");
 }
 
 template <int D>
-static bool is_thermal_wall(const Model<D>& model, std::uint32_t partner) {
-  return partner >= kWall && model.walls[partner - kWall]->kind == WallKind::Thermal;
+static const Wall* thermal_wall(const Model<D>& model, std::uint32_t partner) {
+  if (partner < kPiece) return nullptr;
+  const Wall& law = partner >= kWall ? *model.walls[partner - kWall]
+                                     : fixture_of(model, partner - kPiece).law;
+  return law.kind == WallKind::Thermal ? &law : nullptr;
 }
 
 template <int D>
@@ -134,12 +149,12 @@ PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double 
   }
   const auto [particle, partner] = watchdog.busiest_pair();
   const std::string what = "time does not advance beyond t = " + rounded(time) + ": particle " +
-                           std::to_string(particle) + " and " + partner_name(partner) +
+                           std::to_string(particle) + " and " + partner_name<D>(model, partner) +
                            " collide without end";
   // A thermal wall ignores t_c.
-  if (is_thermal_wall<D>(model, partner)) {
+  if (const Wall* wall = thermal_wall<D>(model, partner)) {
     return PhysicalStop(what + ", because the wall emits at temperature " +
-                        rounded(model.walls[partner - kWall]->temperature) +
+                        rounded(wall->temperature) +
                         "; raise this temperature");
   }
   const double helpful = helpful_contact_time<D>(model, watchdog);
@@ -165,6 +180,8 @@ template double fastest_speed<2>(const Model<2>&, double, bool);
 template double fastest_speed<3>(const Model<3>&, double, bool);
 template PhysicalStop divergence<2>(const Model<2>&, double, double, bool);
 template PhysicalStop divergence<3>(const Model<3>&, double, double, bool);
+template PhysicalStop crowding<2>(const Model<2>&, const Watchdog&, double);
+template PhysicalStop crowding<3>(const Model<3>&, const Watchdog&, double);
 template PhysicalStop standstill<2>(const Model<2>&, const Watchdog&, double, double, bool);
 template PhysicalStop standstill<3>(const Model<3>&, const Watchdog&, double, double, bool);
 

@@ -14,7 +14,8 @@ PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double 
 
 /// The error of a run whose particles have no room, so that collisions follow each other within
 /// the rounding of positions.
-PhysicalStop crowding(const Watchdog& watchdog, double time);
+template <int D>
+PhysicalStop crowding(const Model<D>& model, const Watchdog& watchdog, double time);
 
 /// Speed that particles of a run reach at least, whose fastest particle began with `start_speed`:
 /// by walls, a fall across the box or a kick.

@@ -21,18 +21,16 @@ PairOutcome<D> pair_outcome(const ContactLaw& law, const Partners& partners, con
 }
 
 template <int D>
-static Departure<D> emitted(const Model<D>& model, int side, const WallState& wall,
-                            const Arrival<D>& arrival) {
+static Departure<D> emitted(const Model<D>& model, double temperature, const Vec<D>& normal,
+                            const WallState& wall, const Arrival<D>& arrival) {
   const Grain& grain = arrival.grain;
-  const double temperature = model.wall(side, grain.species).temperature;
   Random random(model.seed, Stream::ThermalWall, arrival.particle, arrival.flight);
   const double uniform = random.uniform();
   std::array<double, D - 1> normals;
   for (double& normal : normals) normal = random.normal();
   Departure<D> departure;
-  departure.velocity = emit<D>(side / 2, Boundary<D>::inward(side), temperature / grain.mass,
-                               uniform, normals.data());
-  departure.velocity[side / 2] += Boundary<D>::inward(side) * wall.velocity;
+  departure.velocity = emit<D>(normal, temperature / grain.mass, uniform, normals.data());
+  departure.velocity += wall.velocity * normal;
   if (model.spins) {
     std::array<double, Spin<D>::SizeAtCompileTime> spin_normals;
     for (double& normal : spin_normals) normal = random.normal();
@@ -46,11 +44,11 @@ static Departure<D> emitted(const Model<D>& model, int side, const WallState& wa
 // one time without end. With this speed it stays away for half of t_c, or for half of an inverse
 // angular frequency of a sinusoidal wall if that is shorter.
 template <int D>
-static double least_rebound(const Model<D>& model, int side, const Wall& spec,
+static double least_rebound(const Model<D>& model, const Wall& spec, const Vec<D>& normal,
                             const WallState& wall, double approach) {
   const double rounding = kApproachRounding * (approach + 2.0 * std::fabs(wall.velocity));
   if (spec.restitution > 0.0 && approach > rounding) return 0.0;
-  const double pressing = wall.acceleration - Boundary<D>::inward(side) * model.gravity[side / 2];
+  const double pressing = wall.acceleration - normal.dot(model.gravity);
   double away = 0.5 * *model.contact_time;
   if (spec.kind == WallKind::Sinusoidal && spec.frequency > 0.0) {
     away = std::min(away, 0.5 / (2.0 * std::numbers::pi * spec.frequency));
@@ -59,26 +57,26 @@ static double least_rebound(const Model<D>& model, int side, const Wall& spec,
 }
 
 template <int D>
-Departure<D> wall_outcome(const Model<D>& model, int side, const WallState& wall,
-                          const Arrival<D>& arrival, bool elastic) {
-  const Wall& spec = model.wall(side, arrival.grain.species);
-  if (spec.kind == WallKind::Thermal) return emitted<D>(model, side, wall, arrival);
-  const int axis = side / 2;
-  const double inward = Boundary<D>::inward(side);
+Departure<D> wall_outcome(const Model<D>& model, const Wall& spec, const Vec<D>& normal,
+                          const WallState& wall, const Arrival<D>& arrival, bool elastic) {
+  if (spec.kind == WallKind::Thermal) {
+    return emitted<D>(model, spec.temperature, normal, wall, arrival);
+  }
   ContactLaw law = PairLaw{spec.restitution, spec.roughness}.contact();
   if (elastic) law = {.restitution = std::max(law.restitution, 1.0)};
   Departure<D> departure;
-  departure.velocity = spec.moves() ? reflect_moving<D>(arrival.velocity, axis, inward,
-                                                        law.restitution, wall.velocity)
-                                    : reflect<D>(arrival.velocity, axis, inward, law.restitution,
-                                                 spec.drive_speed, wall.velocity);
+  departure.velocity =
+      spec.moves() ? reflect_moving<D>(arrival.velocity, normal, law.restitution, wall.velocity)
+                   : reflect<D>(arrival.velocity, normal, law.restitution, spec.drive_speed,
+                                wall.velocity);
   if (elastic) {
-    const double approach = std::fabs(inward * arrival.velocity[axis] - wall.velocity);
-    const double least = wall.velocity + least_rebound<D>(model, side, spec, wall, approach);
-    departure.velocity[axis] = inward * std::max(inward * departure.velocity[axis], least);
+    const double approach = std::fabs(arrival.velocity.dot(normal) - wall.velocity);
+    const double least = wall.velocity + least_rebound<D>(model, spec, normal, wall, approach);
+    const double away = departure.velocity.dot(normal);
+    if (away < least) departure.velocity = with_normal<D>(departure.velocity, normal, least);
   }
   const MotionChange<D> friction = wall_friction<D>(arrival.velocity, departure.velocity,
-                                                    arrival.spin, axis, inward, law, arrival.grain);
+                                                    arrival.spin, normal, law, arrival.grain);
   departure.velocity += friction.velocity;
   departure.spin = arrival.spin + friction.spin;
   return departure;
@@ -88,9 +86,9 @@ template PairOutcome<2> pair_outcome<2>(const ContactLaw&, const Partners&, cons
                                         const Vec<2>&, const Spin<2>&, bool);
 template PairOutcome<3> pair_outcome<3>(const ContactLaw&, const Partners&, const Vec<3>&,
                                         const Vec<3>&, const Spin<3>&, bool);
-template Departure<2> wall_outcome<2>(const Model<2>&, int, const WallState&, const Arrival<2>&,
-                                      bool);
-template Departure<3> wall_outcome<3>(const Model<3>&, int, const WallState&, const Arrival<3>&,
-                                      bool);
+template Departure<2> wall_outcome<2>(const Model<2>&, const Wall&, const Vec<2>&,
+                                      const WallState&, const Arrival<2>&, bool);
+template Departure<3> wall_outcome<3>(const Model<3>&, const Wall&, const Vec<3>&,
+                                      const WallState&, const Arrival<3>&, bool);
 
 }  // namespace clatter

@@ -11,9 +11,10 @@
 
 namespace clatter {
 
-/// Values of Event::partner that are no particle: a wall (kWall + side), a border of the
-/// particle's cell (kCellBorder + side) or the border of its region (kCellBorder). Particle numbers
-/// are smaller.
+/// Values of Event::partner that are no particle: a piece of a fixture (kPiece + number), a wall
+/// (kWall + side), a border of the particle's cell (kCellBorder + side) or the border of its region
+/// (kCellBorder). Particle numbers are smaller.
+inline constexpr std::uint32_t kPiece = 0xffff0000u;
 inline constexpr std::uint32_t kWall = 0xffffffe0u;
 inline constexpr std::uint32_t kCellBorder = 0xfffffff0u;
 
@@ -42,16 +43,16 @@ struct Exit {
 struct Event {
   double time = 0.0;  ///< on the moving base
   std::uint32_t particle = 0;
-  std::uint32_t partner = 0;  ///< a particle, kWall + side, or kCellBorder + side
+  std::uint32_t partner = 0;  ///< a particle, or another value as above
 };
 
-/// Total order of events: by time, then by kind (particles, walls, cell borders), then by particle
+/// Total order of events: by time, then by kind (particles, fixtures and walls, cell borders), then by particle
 /// numbers. Both orders of a pair are the same event. `numbers` has the original numbers of the
 /// particles; null: they are the particles' own.
 inline bool before(const Event& a, const Event& b, const std::uint32_t* numbers = nullptr) {
   if (a.time != b.time) return a.time < b.time;
   const auto rank = [numbers](const Event& e) {
-    const int kind = e.partner < kWall ? 0 : e.partner < kCellBorder ? 1 : 2;
+    const int kind = e.partner < kPiece ? 0 : e.partner < kCellBorder ? 1 : 2;
     const std::uint32_t particle = numbers ? numbers[e.particle] : e.particle;
     const std::uint32_t partner = numbers && kind == 0 ? numbers[e.partner] : e.partner;
     const bool swap = kind == 0 && partner < particle;

@@ -352,7 +352,7 @@ template <int D>
                                                                               bool collided) {
   const bool stands_still =
       watchdog_ && collided && watchdog_->sees_collapse(now_, event.particle, event.partner);
-  if (event.partner >= kWall && is_too_fast(event.particle)) return Halt::Diverges;
+  if (event.partner >= kPiece && is_too_fast(event.particle)) return Halt::Diverges;
   if (stands_still) return Halt::StandsStill;
   return base_due() ? Halt::BaseDue : Halt::Limit;
 }
@@ -361,7 +361,7 @@ template <int D>
 bool EventLoop<D>::is_next(const ForeseenEvent<D>& foreseen) const {
   const auto& [event, flight, partner_flight, image] = foreseen;
   return gas_.particles[event.particle].flight.number == flight &&
-         (event.partner >= kWall || gas_.particles[event.partner].flight.number == partner_flight);
+         (event.partner >= kPiece || gas_.particles[event.partner].flight.number == partner_flight);
 }
 
 template <int D>
@@ -369,8 +369,8 @@ typename EventLoop<D>::Halt EventLoop<D>::process_foreseen(const ForeseenEvent<D
   const Event& event = foreseen.event;
   checks_.clock_steps_back = std::max(checks_.clock_steps_back, now_ - event.time);
   now_ = std::max(now_, event.time);
-  if (event.partner >= kWall) {
-    hit_wall(event.particle, static_cast<int>(event.partner - kWall));
+  if (event.partner >= kPiece) {
+    hit(event.particle, event.partner, foreseen.image);
   } else {
     collide(event.particle, event.partner, foreseen.image);
   }
@@ -399,9 +399,9 @@ void EventLoop<D>::process(Event event) {
   now_ = std::max(now_, event.time);
   if (event.partner >= kCellBorder) {
     enter_next_cell(event.particle);
-  } else if (event.partner >= kWall) {
-    const bool own = !record_ || note(event, IntVec<D>::Zero());
-    hit_wall(event.particle, static_cast<int>(event.partner - kWall));
+  } else if (event.partner >= kPiece) {
+    const bool own = !record_ || note(event, plans_[event.particle].image);
+    hit(event.particle, event.partner, plans_[event.particle].image);
     if (!own) checks_ = before;
     prediction_.plan({event.particle, &plans_[event.particle]}, now_);
     schedule(event.particle);
@@ -427,15 +427,17 @@ void EventLoop<D>::process(Event event) {
 
 template <int D>
 bool EventLoop<D>::compare(Preparation& work, const StopRequest& pause) const {
+  if (!work.fixtures.any()) work.fixtures = FixtureImages<D>(model_.fixtures, model_.domain());
   return work.comparing.advance(gas_.particles.size(), pause, [&](std::size_t i) {
-    work.deepest_overlap = std::max(work.deepest_overlap, deepest_overlap_of(i));
+    work.deepest_overlap = std::max(work.deepest_overlap, deepest_overlap_of(i, work.fixtures));
   });
 }
 
-// Deepest overlap of a particle with others and with walls. A pair of particles that are alike is
+// Deepest overlap of a particle with others, with walls and with fixtures. A pair of particles that are alike is
 // compared once. A small particle may be on lists that a large one reads, but not the reverse.
 template <int D>
-double EventLoop<D>::deepest_overlap_of(std::size_t number) const {
+double EventLoop<D>::deepest_overlap_of(std::size_t number,
+                                        const FixtureImages<D>& fixtures) const {
   const auto i = static_cast<std::uint32_t>(number);
   double deepest = 0.0;
   const Vec<D> r = gas_.particles[i].flight.at(now_, model_.gravity);
@@ -447,6 +449,11 @@ double EventLoop<D>::deepest_overlap_of(std::size_t number) const {
     const double distance = grain(i).radius + grain(j).radius;
     deepest = std::max(deepest, (distance - x.norm()) / model_.diameter);
   });
+  if (fixtures.any()) {
+    const double depth =
+        fixtures.depth(model_.domain().wrapped(r), grain(i).radius, grain(i).species);
+    deepest = std::max(deepest, depth / model_.diameter);
+  }
   return std::max(deepest, overlap_with_walls(boundary_, i, r));
 }
 
@@ -490,7 +497,7 @@ void EventLoop<D>::prefetch_ahead() {
     prefetch(gas_.particles[event.particle]);
     prefetch(plans_[event.particle]);
     if (many_kinds) prefetch(grains_[event.particle]);
-    if (event.partner >= kWall) return;
+    if (event.partner >= kPiece) return;
     prefetch(gas_.particles[event.partner]);
     prefetch(plans_[event.partner]);
     if (many_kinds) prefetch(grains_[event.partner]);
@@ -530,7 +537,7 @@ void EventLoop<D>::visit_searches(const Event& event, const Visit& visit) const 
     return;
   }
   visit(event.particle, cell);
-  if (event.partner < kWall) visit(event.partner, plans_[event.partner].cell);
+  if (event.partner < kPiece) visit(event.partner, plans_[event.partner].cell);
 }
 
 template class EventLoop<2>;

@@ -70,6 +70,7 @@ class EventLoop {
     std::optional<PausingLoop> fitted_placing;  ///< into cells that fit the crowding, if others do
     bool fitted = false;                        ///< whether the crowding is known
     double deepest_overlap = 0.0;               ///< as of Simulation::deepest_overlap
+    FixtureImages<D> fixtures = FixtureImages<D>();  ///< while particles are compared
   };
   /// Puts all particles into cells. Returns false at a request to pause. Throws PhysicalStop if a
   /// particle is outside of the box.
@@ -89,7 +90,7 @@ class EventLoop {
   /// Prefetches the particles of an event.
   void prefetch_particles(const Event& event) const {
     prefetch(gas_.particles[event.particle]);
-    if (event.partner < kWall) prefetch(gas_.particles[event.partner]);
+    if (event.partner < kPiece) prefetch(gas_.particles[event.partner]);
   }
   /// Adds the current ways of all particles to the record of a tile.
   void note_all_strays();
@@ -188,7 +189,11 @@ class EventLoop {
   void note_stray(std::uint32_t number, const Vec<D>& position);
   bool note(const Event& event, const IntVec<D>& image);
   void collide(std::uint32_t first, std::uint32_t second, const IntVec<D>& image);
+  void hit(std::uint32_t number, std::uint32_t partner, const IntVec<D>& image);
   void hit_wall(std::uint32_t number, int side);
+  void hit_fixture(std::uint32_t number, std::uint32_t piece, const IntVec<D>& image);
+  void bounce(std::uint32_t number, const Motion& at, const Wall& law, const WallState& wall,
+              WallCollision<D> collision);
   bool within_contact_time(std::uint32_t number) const;
   bool is_too_fast(std::uint32_t number) const;
   void enter_next_cell(std::uint32_t number);
@@ -198,7 +203,7 @@ class EventLoop {
                                                   const Vec<D>& velocity);
   [[gnu::always_inline]] inline void schedule(std::uint32_t particle);
   void put_into_cell(std::size_t number);
-  double deepest_overlap_of(std::size_t number) const;
+  double deepest_overlap_of(std::size_t number, const FixtureImages<D>& fixtures) const;
   double overlap_with_walls(const Boundary<D>& boundary, std::uint32_t number,
                             const Vec<D>& position) const;
   void begin_watch(double start_speed, double mean_collision_time,

@@ -55,7 +55,7 @@ void EventLoop<D>::note_stray(std::uint32_t number, const Vec<D>& position) {
 template <int D>
 bool EventLoop<D>::note(const Event& event, const IntVec<D>& image) {
   const auto& [time, particle, partner] = event;
-  const bool pair = partner < kWall;
+  const bool pair = partner < kPiece;
   TileRecord<D>& record = *record_;
   bool own = record.own[particle];
   if (pair && own != record.own[partner]) {
@@ -194,34 +194,66 @@ void EventLoop<D>::collide(std::uint32_t first, std::uint32_t second, const IntV
 }
 
 template <int D>
+void EventLoop<D>::hit(std::uint32_t number, std::uint32_t partner, const IntVec<D>& image) {
+  if (partner >= kWall) {
+    hit_wall(number, static_cast<int>(partner - kWall));
+  } else {
+    hit_fixture(number, partner - kPiece, image);
+  }
+}
+
+template <int D>
 void EventLoop<D>::hit_wall(std::uint32_t number, int side) {
   const int axis = side / 2;
-  auto [r, v] = motion_now(number);
+  Motion at = motion_now(number);
   const double place = boundary_.touching_place(side, grain(number).radius, now_);
-  const double beyond = Boundary<D>::inward(side) * (place - r[axis]);
+  const double beyond = Boundary<D>::inward(side) * (place - at.r[axis]);
   checks_.deepest_overlap = std::max(checks_.deepest_overlap, beyond / model_.diameter);
   // At a fixed wall the position is set to the exact touching coordinate. Otherwise a grain at rest
   // would sink into the wall by rounding.
   if (!model_.walls[side]->moves()) {
-    r[axis] = place;
+    at.r[axis] = place;
     if (!gas_.remainders.empty()) gas_.remainders[number][axis] = 0.0;
   }
-  const bool elastic = within_contact_time(number) && model_.walls[side]->kind != WallKind::Thermal;
+  bounce(number, at, model_.wall(side, grain(number).species), boundary_.wall(side, now_),
+         {.side = side, .particle = {}, .normal = Boundary<D>::normal(side)});
+}
+
+// The position is set to that of contact, as at a fixed wall.
+template <int D>
+void EventLoop<D>::hit_fixture(std::uint32_t number, std::uint32_t piece, const IntVec<D>& image) {
+  const auto& [touched, fixture] = near_.piece(piece);
+  Motion at = motion_now(number);
+  const Vec<D> place = at.r + model_.domain().shift(image.template cast<double>());
+  const Vec<D> normal = touched.normal_at(place);
+  const double beyond = grain(number).radius - touched.distance(place);
+  checks_.deepest_overlap = std::max(checks_.deepest_overlap, beyond / model_.diameter);
+  at.r += beyond * normal;
+  bounce(number, at, model_.fixtures[fixture].law_for(grain(number).species), {},
+         {.side = WallCollision<D>::kNoSide, .particle = {}, .normal = normal, .fixture = fixture});
+}
+
+// Reflects or emits a particle that touches a wall or a fixture, and reports it. `collision` has
+// the partner.
+template <int D>
+void EventLoop<D>::bounce(std::uint32_t number, const Motion& at, const Wall& law,
+                          const WallState& wall, WallCollision<D> collision) {
+  const bool elastic = within_contact_time(number) && law.kind != WallKind::Thermal;
   const Departure<D> departure = wall_outcome<D>(
-      model_, side, boundary_.wall(side, now_),
-      {v, spin(number), record_ ? record_->numbers[number] : number,
+      model_, law, collision.normal, wall,
+      {at.v, spin(number), record_ ? record_->numbers[number] : number,
        std::uint64_t{gas_.era} << 32 | gas_.particles[number].flight.number, grain(number)},
       elastic);
   if (!observers_.empty()) {
     const Spin<D> spin_gain = departure.spin - spin(number);
-    const Vec<D> gain = grain(number).mass * (departure.velocity - v);
-    const WallCollision<D> collision{
-        now_, side,
-        change_of(gas_, number, grain(number), r, v, spin(number), Impulse<D>{gain, spin_gain})};
+    const Vec<D> gain = grain(number).mass * (departure.velocity - at.v);
+    collision.time = now_;
+    collision.particle = change_of(gas_, number, grain(number), at.r, at.v, spin(number),
+                                   Impulse<D>{gain, spin_gain});
     for (Observer<D>* observer : observers_) observer->on_wall(collision);
   }
   --until_base_moves_;
-  renew_flight(number, r, departure.velocity);
+  renew_flight(number, at.r, departure.velocity);
   if (!gas_.spins.empty()) gas_.spins[number] = departure.spin;
   ++counts_.wall_collisions;
   counts_.elasticised_wall += elastic;
@@ -334,8 +366,16 @@ template bool EventLoop<2>::within_contact_time(std::uint32_t) const;
 template bool EventLoop<3>::within_contact_time(std::uint32_t) const;
 template void EventLoop<2>::collide(std::uint32_t, std::uint32_t, const IntVec<2>&);
 template void EventLoop<3>::collide(std::uint32_t, std::uint32_t, const IntVec<3>&);
+template void EventLoop<2>::hit(std::uint32_t, std::uint32_t, const IntVec<2>&);
+template void EventLoop<3>::hit(std::uint32_t, std::uint32_t, const IntVec<3>&);
 template void EventLoop<2>::hit_wall(std::uint32_t, int);
 template void EventLoop<3>::hit_wall(std::uint32_t, int);
+template void EventLoop<2>::hit_fixture(std::uint32_t, std::uint32_t, const IntVec<2>&);
+template void EventLoop<3>::hit_fixture(std::uint32_t, std::uint32_t, const IntVec<3>&);
+template void EventLoop<2>::bounce(std::uint32_t, const Motion&, const Wall&, const WallState&,
+                                   WallCollision<2>);
+template void EventLoop<3>::bounce(std::uint32_t, const Motion&, const Wall&, const WallState&,
+                                   WallCollision<3>);
 template void EventLoop<2>::begin_stroke();
 template void EventLoop<3>::begin_stroke();
 template void EventLoop<2>::kick();

@@ -260,7 +260,7 @@ void Foresight<D>::run(const ParticleStates<D>& gas, Limits& limits, Tile& tile,
   for (const ForeseenEvent<D>& found : record.events) {
     ForeseenEvent<D>& event = tile.events.emplace_back(found);
     event.event.particle = record.numbers[event.event.particle];
-    if (event.event.partner < kWall) event.event.partner = record.numbers[event.event.partner];
+    if (event.event.partner < kPiece) event.event.partner = record.numbers[event.event.partner];
   }
   loop.skip_to(end);
   loop.note_all_strays();

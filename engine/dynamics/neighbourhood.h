@@ -4,11 +4,13 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "engine/dynamics/cell_grid.h"
 #include "engine/dynamics/grain_array.h"
 #include "engine/dynamics/neighbour_lists.h"
 #include "engine/dynamics/particle.h"
+#include "engine/dynamics/piece_lists.h"
 #include "engine/dynamics/prefetch.h"
 #include "engine/physics/theory.h"
 
@@ -17,7 +19,8 @@
 // border by an overhang, which is as wide as contacts allow. This hysteresis prevents repeated
 // crossings. Cells become finer in clusters. Spheres above a volume fraction of 0.43 have lists of
 // their own (NeighbourLists). In a mixture the fraction is that of as many spheres that are as wide
-// as the cells, and no diameter may be below half of the largest. Lists of spheres have half as many
+// as the cells, and no diameter may be below half of the largest. With fixtures there are cells
+// alone, because these have the lists of their pieces. Lists of spheres have half as many
 // particles as those of 27 cells, and dense spheres leave their regions rarely.
 
 namespace clatter {
@@ -34,8 +37,10 @@ class Neighbourhood {
       : grains_(&grains),
         grid_(whole_box<D>(model), grid_sizes<D>(model, grains),
               has_lists(model, grains, particles) ? 1.0
-                                                  : CellGrid<D>::kCellsPerParticle * particles) {
+                                                  : CellGrid<D>::kCellsPerParticle * particles),
+        pieces_(model) {
     if (has_lists(model, grains, particles)) lists_.emplace(model, grains, particles);
+    pieces_.lay(grid_);
   }
 
   /// Empties the neighbourhood and lays cells for a number of particles over a subdomain. `sizes`
@@ -43,6 +48,7 @@ class Neighbourhood {
   void reset(const Subdomain<D>& subdomain, const GridSizes& sizes, double particles) {
     lists_.reset();
     grid_.reset(subdomain, sizes, CellGrid<D>::kCellsPerParticle * particles);
+    pieces_.lay(grid_);
   }
 
   /// Whether a particle reads several lists, see visit_wide().
@@ -91,7 +97,20 @@ class Neighbourhood {
     for (const auto& plan : plans) {
       near += static_cast<double>(grid_.continuations().count(grid_.near(plan.cell)));
     }
-    return grid_.fit(static_cast<double>(plans.size()), near);
+    const bool changed = grid_.fit(static_cast<double>(plans.size()), near);
+    if (changed) pieces_.lay(grid_);
+    return changed;
+  }
+
+  /// Whether there are fixtures.
+  bool has_pieces() const { return pieces_.any(); }
+  /// The pieces of fixtures that a particle in a cell may touch.
+  std::span<const typename PieceLists<D>::Entry> pieces_near(const IntVec<D>& cell) const {
+    return pieces_.near(grid_.number_of(cell));
+  }
+  /// A piece of a fixture, by its number in Event::partner.
+  const typename PieceLists<D>::Owned& piece(std::uint32_t number) const {
+    return pieces_.piece(number);
   }
 
   /// The first list of the particles near a particle in a cell.
@@ -185,6 +204,7 @@ class Neighbourhood {
   static constexpr double kDense = 0.43;
   // Whether the particles have lists of their own.
   static bool has_lists(const Model<D>& model, const GrainArray& grains, double particles) {
+    if (!model.fixtures.empty()) return false;
     for (int axis = 0; axis < D; ++axis) {
       const double narrowest = NeighbourLists<D>::kMinSide * model.diameter;
       if (model.periodic(axis) && model.box[axis] < narrowest) return false;
@@ -209,6 +229,7 @@ class Neighbourhood {
   const GrainArray* grains_;  // a pointer, so that a neighbourhood can be assigned
   CellGrid<D> grid_;          // of one cell beside lists of particles
   std::optional<NeighbourLists<D>> lists_;
+  PieceLists<D> pieces_;
 };
 
 }  // namespace clatter

@@ -43,12 +43,21 @@ struct PairCollision {
   double undissipated = 0.0;           ///< energy that the TC model saved from dissipation
 };
 
-/// A collision of a particle with a wall.
+/// A collision of a particle with a wall of the box or with a fixture.
 template <int D>
 struct WallCollision {
+  static constexpr int kNoSide = -1;
+
   double time = 0.0;  ///< on the moving base
-  int side = 0;       ///< the Side
+  int side = 0;       ///< the Side; kNoSide for a fixture
   ParticleChange<D> particle;
+  Vec<D> normal = Vec<D>::Zero();  ///< unit vector from the wall to the particle
+  std::uint32_t fixture = 0;       ///< number of the fixture in the model, without a side
+
+  /// Whether it is with a wall of the box.
+  bool at_wall() const { return side != kNoSide; }
+  /// From the point that touches to the centre of the particle.
+  Vec<D> branch() const { return particle.grain.radius * normal; }
 };
 
 /// Cause of a kick. A puff is a nudge of the particles that enter.
@@ -71,7 +80,7 @@ class Observer {
   virtual ~Observer() = default;
   /// Two particles have collided. The simulation still holds their flights before the collision.
   virtual void on_collision(const PairCollision<D>&) {}
-  /// A particle has hit a wall. The simulation still holds its flight before the hit.
+  /// A particle has hit a wall or a fixture. The simulation still holds its flight before the hit.
   virtual void on_wall(const WallCollision<D>&) {}
   /// A particle has been kicked. The simulation still holds its flight before the kick.
   virtual void on_kick(const Kick<D>&) {}

@@ -33,8 +33,7 @@ Prediction<D>::Prediction(const Model<D>& model, const Boundary<D>& boundary,
       particles_(particles),
       grains_(grains),
       near_(near),
-      walled_(
-          std::any_of(model.walls.begin(), model.walls.end(), [](const auto& w) { return w; })) {
+      walled_(!model.is_periodic() || !model.fixtures.empty()) {
   set_laws();
 }
 
@@ -63,7 +62,7 @@ void Prediction<D>::offer(double time, std::uint32_t particle, std::uint32_t par
                           const IntVec<D>& image, Plan<D>& plan) const {
   if (time > plan.time || time == kNever) return;
   if (time == plan.time) {
-    const auto number = [this](std::uint32_t p) { return numbers_ && p < kWall ? numbers_[p] : p; };
+    const auto number = [this](std::uint32_t p) { return numbers_ && p < kPiece ? numbers_[p] : p; };
     const bool swap = number(partner) < number(particle);
     const bool first = number(partner) < number(plan.partner) ||
                        (partner == plan.partner && image_before<D>(image, plan.image, swap));
@@ -71,7 +70,7 @@ void Prediction<D>::offer(double time, std::uint32_t particle, std::uint32_t par
   }
   plan.time = time;
   plan.partner = partner;
-  plan.partner_flight = partner < kWall ? particles_[partner].flight.number : 0;
+  plan.partner_flight = partner < kPiece ? particles_[partner].flight.number : 0;
   plan.image = image;
 }
 
@@ -289,6 +288,20 @@ void Prediction<D>::look_at_walls(std::uint32_t particle, double now, Plan<D>& p
   }
 }
 
+template <int D>
+void Prediction<D>::look_at_fixtures(std::uint32_t particle, Plan<D>& plan) const {
+  for (const auto& [number, image] : near_.pieces_near(plan.cell)) {
+    const auto& [piece, fixture] = near_.piece(number);
+    const bool passes =
+        !grains_.empty() && model_.fixtures[fixture].lets_pass(grains_[particle].species);
+    if (passes) continue;
+    const Vec<D> from = particles_.image(particle) + image.template cast<double>();
+    offer(piece_contact_time<D>(piece, particles_[particle].flight, model_.domain().shift(-from),
+                                radius_of(particle), model_.gravity),
+          particle, kPiece + number, -from.template cast<int>(), plan);
+  }
+}
+
 // A contact at the same time keeps precedence. A NaN compares as false, and std::min then returns
 // its first argument.
 template <int D>
@@ -315,7 +328,10 @@ void Prediction<D>::make_plans(const Requests<kParticles>& requests, double now)
     }
   }
   if (!walled_) return;
-  for (const auto& [particle, plan] : requests) look_at_walls(particle, now, *plan);
+  for (const auto& [particle, plan] : requests) {
+    look_at_walls(particle, now, *plan);
+    if (near_.has_pieces()) look_at_fixtures(particle, *plan);
+  }
 }
 
 template <int D>

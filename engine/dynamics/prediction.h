@@ -124,6 +124,7 @@ class Prediction {
   void offer_particle(std::uint32_t particle, const Candidates<D>& near, int i, double time,
                       Plan<D>& plan) const;
   void look_at_walls(std::uint32_t particle, double now, Plan<D>& plan) const;
+  void look_at_fixtures(std::uint32_t particle, Plan<D>& plan) const;
   void offer(double time, std::uint32_t particle, std::uint32_t partner, const IntVec<D>& image,
              Plan<D>& plan) const;
 
@@ -133,7 +134,7 @@ class Prediction {
   const GrainArray& grains_;
   const Neighbourhood<D>& near_;
   const std::uint32_t* numbers_ = nullptr;
-  bool walled_;  // whether there are walls
+  bool walled_;  // whether there are walls or fixtures
   // Lists of a particle with a reach above 1, and the images of their cells.
   mutable std::vector<std::pair<NearListView, IntVec<D>>> wide_;
   Planners planners_;

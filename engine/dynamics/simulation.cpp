@@ -301,7 +301,7 @@ void Simulation<D>::attend_to(typename EventLoop<D>::Halt halt) {
     allow_speed(loop_.fastest_now());
   }
   if (halt == EventLoop<D>::Halt::StandsStill) {
-    if (crowded_) throw crowding(*loop_.watchdog(), time());
+    if (crowded_) throw crowding<D>(model_, *loop_.watchdog(), time());
     throw standstill<D>(model_, *loop_.watchdog(), time(), temperature(), compresses());
   }
 }

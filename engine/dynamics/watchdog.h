@@ -75,11 +75,11 @@ class Watchdog {
   /// Continues to watch a run of so many particles.
   Watchdog(std::size_t particles, const WatchdogState& state);
 
-  /// Records a particle's collision with a partner: a particle or kWall + side. Returns true at a
+  /// Records a particle's collision with a partner: as Event::partner. Returns true at a
   /// collapse: 1000 N collisions, or `most_per_pair` of one pair, within 10^-6 mean collision
   /// times.
   bool sees_collapse(double time, std::uint32_t particle, std::uint32_t partner) {
-    state_.participations += partner < kWall ? 2 : 1;
+    state_.participations += partner < kPiece ? 2 : 1;
     if (state_.suspicious) ++state_.pairs[{particle, partner}];
     return --state_.until_look == 0 && look(time);
   }

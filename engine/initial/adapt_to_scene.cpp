@@ -63,7 +63,7 @@ State<D> adapted_mixture(const State<D>& state, const Scene& scene, std::uint64_
   const Model<D> model = model_of<D>(scene, seed);
   std::vector<Heir> heirs = heirs_of(state, scene);
   const Vec<D> low = scene.clear_corner(), high = low + Vec<D>(scene.clear_box());
-  FreeRoom<D> room(model.domain(), model.diameter, low, high);
+  FreeRoom<D> room(model.domain(), model.diameter, low, high, model.fixtures);
   std::vector<std::size_t> large_first(heirs.size());
   std::iota(large_first.begin(), large_first.end(), std::size_t{0});
   std::ranges::stable_sort(large_first, std::greater<>(),
@@ -75,7 +75,7 @@ State<D> adapted_mixture(const State<D>& state, const Scene& scene, std::uint64_
     if (from == kNew) continue;
     fitted.positions[k] = state.positions[from];
     const bool stays = is_in_box<D>(fitted.positions[k], model.box) &&
-                       room.insert_if_free(fitted.positions[k], grain.radius);
+                       room.insert_if_free(fitted.positions[k], grain.radius, grain.species);
     if (!stays) from = kNew;
   }
   Random random(seed, Stream::Placement, 1, 0);
@@ -85,7 +85,8 @@ State<D> adapted_mixture(const State<D>& state, const Scene& scene, std::uint64_
       for (int axis = 0; axis < D; ++axis) {
         fitted.positions[k][axis] = std::lerp(low[axis], high[axis], random.uniform());
       }
-      placed = room.insert_if_free(fitted.positions[k], heirs[k].grain.radius);
+      placed = room.insert_if_free(fitted.positions[k], heirs[k].grain.radius,
+                                    heirs[k].grain.species);
     }
     if (!placed) return {};
   }
@@ -120,7 +121,9 @@ State<D> adapt_to_scene(const State<D>& state, const Scene& scene, std::uint64_t
   const Vec<D> corner = scene.clear_corner();
   const auto count = static_cast<std::size_t>(scene.particles.count);
   Random random(seed, Stream::Placement, 1, 0);
-  RandomInsertion<D> insertion(scene.start_room<D>(), scene.particles.count, random);
+  const Room<D> room = scene.start_room<D>();
+  RandomInsertion<D> insertion(room, scene.particles.count, random,
+                               start_fixtures<D>(scene));
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < state.positions.size() && kept.size() < count; ++i) {
     if (insertion.place_first(state.positions[i] - corner)) kept.push_back(i);

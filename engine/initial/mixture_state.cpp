@@ -65,10 +65,9 @@ State<D> state_at_places(const std::vector<Vec<D>>& places, const std::vector<Gr
 template <int D>
 State<D> mixture_state(const Model<D>& model, const std::vector<Grain>& grains, double temperature,
                        std::uint64_t seed, const StopRequest& stop) {
-  std::vector<double> radii;
-  for (const Grain& grain : grains) radii.push_back(grain.radius);
   Random random(seed, Stream::Placement, 0, 0);
-  OverlapRemoval<D> removal(model.domain(), std::move(radii), random);
+  OverlapRemoval<D> removal(model.domain(), grains, random,
+                            FixtureImages<D>(model.fixtures, model.domain()));
   if (!removal.advance(stop)) throw Interrupted();
   const std::vector<Vec<D>> places = removal.take();
   if (places.empty()) return {};

@@ -35,9 +35,13 @@ std::uint32_t OverlapRemoval<D>::Grid::index_of(const IntVec<D>& cell) const {
 
 // The grids end with that of the smallest particle. Few sizes make few grids.
 template <int D>
-OverlapRemoval<D>::OverlapRemoval(const Domain<D>& domain, std::vector<double> radii,
-                                  Random& random)
-    : domain_(domain), radii_(std::move(radii)), places_(radii_.size()) {
+OverlapRemoval<D>::OverlapRemoval(const Domain<D>& domain, const std::vector<Grain>& grains,
+                                  Random& random, const FixtureImages<D>& fixtures)
+    : domain_(domain), fixtures_(fixtures), places_(grains.size()) {
+  for (const Grain& grain : grains) {
+    radii_.push_back(grain.radius);
+    species_.push_back(grain.species);
+  }
   const double largest = radii_.empty() ? 0.5 : *std::ranges::max_element(radii_);
   double smallest = largest;
   for (const double radius : radii_) smallest = std::min(smallest, radius);
@@ -72,10 +76,11 @@ void OverlapRemoval<D>::place(std::uint32_t particle, Random& random) {
   }
 }
 
-// Whether the centre is in no particle of a coarser grid.
+// Whether the centre is in no particle of a coarser grid, and the particle in no fixture.
 template <int D>
 bool OverlapRemoval<D>::is_free(std::uint32_t particle) const {
   const Vec<D>& centre = places_[particle];
+  if (fixtures_.depth(centre, radii_[particle], species_[particle]) > 0.0) return false;
   for (std::size_t level = 0; level < levels_[particle]; ++level) {
     bool within = false;
     visit_near(grids_[level], centre, [&](std::uint32_t other) {
@@ -154,12 +159,13 @@ void OverlapRemoval<D>::visit_near(const Grid& grid, const Vec<D>& place, Visit 
   }
 }
 
-// Parts all pairs once: each particle from those of its grid and of coarser ones. Returns the sum
-// of their overlaps.
+// Parts all pairs once: each particle from those of its grid and of coarser ones, and from fixtures.
+// Returns the sum of their overlaps.
 template <int D>
 double OverlapRemoval<D>::sweep() {
   double sum = 0.0;
   for (std::uint32_t i = 0; i < places_.size(); ++i) {
+    if (fixtures_.any()) sum += leave_fixtures(i);
     for (std::size_t level = 0; level <= levels_[i]; ++level) {
       const bool later_only = level == levels_[i];
       visit_near(grids_[level], places_[i], [&](std::uint32_t other) {
@@ -189,6 +195,19 @@ double OverlapRemoval<D>::part(std::uint32_t a, std::uint32_t b) {
   keep_inside(a);
   keep_inside(b);
   return std::max(1.0 - length / distance, std::numeric_limits<double>::min());
+}
+
+// Moves a particle out of the fixture that it overlaps most. Returns the overlap over its radius.
+template <int D>
+double OverlapRemoval<D>::leave_fixtures(std::uint32_t particle) {
+  constexpr double kGap = 1e-3;  // that remains, as a share of the overlap and of the radius
+  const double radius = radii_[particle];
+  const Vec<D> way = fixtures_.way_out(places_[particle], radius, species_[particle]);
+  const double length = way.norm();
+  if (length == 0.0) return 0.0;
+  places_[particle] += way * ((1.0 + kGap) + kGap * radius / length);
+  keep_inside(particle);
+  return length / radius;
 }
 
 template <int D>

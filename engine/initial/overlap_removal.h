@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "engine/laws/domain.h"
+#include "engine/laws/fixture.h"
+#include "engine/physics/grain.h"
 #include "engine/physics/random.h"
 #include "engine/stop_request.h"
 #include "engine/vec.h"
@@ -14,15 +16,17 @@ namespace clatter {
 
 /// Random places of particles of different sizes without overlaps, in parts. The places begin as
 /// uniform random points, outside of particles that are much larger. A sweep moves each overlapping
-/// pair apart along the line of their centres, the smaller particle farther. Below the density of
+/// pair apart along the line of their centres, the smaller particle farther, and moves particles
+/// out of fixtures. Below the density of
 /// random close packing, 0.84 for disks and 0.64 for spheres, a sweep soon finds no overlap. The
 /// places are not those of a gas in equilibrium.
 template <int D>
 class OverlapRemoval {
  public:
-  /// Begins with random points in a box. `radii` are those of the particles, less than half of each
-  /// side of the box.
-  OverlapRemoval(const Domain<D>& domain, std::vector<double> radii, Random& random);
+  /// Begins with random points in a box, outside of fixtures. `grains` are the particles, with
+  /// radii less than half of each side of the box.
+  OverlapRemoval(const Domain<D>& domain, const std::vector<Grain>& grains, Random& random,
+                 const FixtureImages<D>& fixtures = FixtureImages<D>());
 
   /// Continues until no particles overlap, or until the overlaps no longer fall. Returns false at a
   /// request to pause; the pauses do not change the result.
@@ -52,12 +56,15 @@ class OverlapRemoval {
   void visit_near(const Grid& grid, const Vec<D>& place, Visit visit) const;
   double sweep();
   double part(std::uint32_t a, std::uint32_t b);
+  double leave_fixtures(std::uint32_t particle);
   void keep_inside(std::uint32_t particle);
 
   static constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
   Domain<D> domain_;
   std::vector<double> radii_;
+  std::vector<std::uint32_t> species_;  // [N]
+  FixtureImages<D> fixtures_;
   std::vector<Vec<D>> places_;
   std::vector<Grid> grids_;           // of diameters that halve from one to the next
   std::vector<std::uint8_t> levels_;  // [N] number of each particle's grid

@@ -15,13 +15,13 @@ namespace clatter {
 
 namespace {
 
-// The room between the particles of a gas at one time, and the walls at that time.
+// The room between the particles of a gas at one time, the walls at that time, and the fixtures.
 template <int D>
 FreeRoom<D> room_between(const Model<D>& model, const Scene& laws, const RunState<D>& state) {
   const Vec<D> low = laws.clear_corner();
   Vec<D> high = low + Vec<D>(laws.clear_box());
   if (state.piston) high[0] -= state.piston->travel(Clock(state.base).absolute(state.now));
-  FreeRoom<D> room(model.domain(), model.diameter, low, high);
+  FreeRoom<D> room(model.domain(), model.diameter, low, high, model.fixtures);
   for (std::size_t i = 0; i < state.flights.size(); ++i) {
     room.insert(state.flights[i].at(state.now, state.gravity),
                 state.grains.empty() ? 0.5 * model.diameter : state.grains[i].radius);
@@ -58,7 +58,7 @@ std::vector<PuffParticle<D>> puff_particles(const RunState<D>& state, const Puff
     const auto number = static_cast<int>(particles.size());
     const Grain grain =
         laws.species.empty() ? model.grain() : laws.grain(species, number, puff.count);
-    if (!room.insert_if_free(point, grain.radius)) continue;
+    if (!room.insert_if_free(point, grain.radius, grain.species)) continue;
     tries = 0;
     Vec<D> velocity = mean;
     const double spread = std::sqrt(puff.temperature / grain.mass);

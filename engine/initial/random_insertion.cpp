@@ -33,7 +33,8 @@ namespace {
 template <int D>
 class Insertion : public RandomInsertion<D>::Work {
  public:
-  explicit Insertion(const Room<D>& room) : room_(room) {
+  Insertion(const Room<D>& room, const FixtureImages<D>& fixtures)
+      : room_(room), fixtures_(fixtures) {
     std::size_t cells = 1;
     for (int axis = 0; axis < D; ++axis) {
       low_[axis] = room.walled[axis] ? 0.5 * room.diameter : 0.0;
@@ -118,6 +119,7 @@ class Insertion : public RandomInsertion<D>::Work {
   bool place_at(const Vec<D>& point, const Voxel& voxel) {
     const auto offset = [&](const Vec<D>& centre) -> Vec<D> { return (centre - point).cwiseAbs(); };
     if (any_particle_within(voxel, offset)) return false;
+    if (fixtures_.depth(point, 0.5 * room_.diameter, 0) > 0.0) return false;
     centres_[cell_of(voxel)] = static_cast<std::uint32_t>(placed_.size());
     placed_.push_back(point);
     return true;
@@ -133,7 +135,9 @@ class Insertion : public RandomInsertion<D>::Work {
       const Vec<D> half = 0.5 * widths_;
       Vec<D> middle;
       for (int k = 0; k < D; ++k) middle[k] = low_[k] + (voxel[k] + 0.5) * widths_[k];
-      // A particle covers the voxel if it covers the corner farthest from its centre.
+      // A particle covers the voxel if it covers the corner farthest from its centre. So does a
+      // fixture if it is deeper at the middle than the corners are away.
+      if (fixtures_.depth(middle, 0.5 * room_.diameter, 0) > half.norm()) return true;
       return any_particle_within(voxel, [&](const Vec<D>& centre) -> Vec<D> {
         return (centre - middle).cwiseAbs() + half;
       });
@@ -193,6 +197,7 @@ class Insertion : public RandomInsertion<D>::Work {
   }
 
   Room<D> room_;
+  FixtureImages<D> fixtures_;
   Vec<D> low_;
   IntVec<D> counts_;
   IntVec<D> reach_;  // number of cells on either side within a diameter
@@ -211,17 +216,17 @@ class Insertion : public RandomInsertion<D>::Work {
 template <int D>
 class SparseInsertion : public RandomInsertion<D>::Work {
  public:
-  explicit SparseInsertion(const Room<D>& room)
-      : room_(room), near_(domain_of(room), room.diameter) {}
+  SparseInsertion(const Room<D>& room, const FixtureImages<D>& fixtures)
+      : room_(room), fixtures_(fixtures), near_(domain_of(room), room.diameter) {}
 
   bool place(std::size_t count, Random& random, const StopRequest& pause) override {
-    while (placed() < count) {
-      if (placed() % kStepsPerQuestion == 0 && pause.made()) return false;
+    while (placed() < count && failures_ < kMostFailures) {
+      if (tries_++ % kStepsPerQuestion == 0 && pause.made()) return false;
       Vec<D> point;
       for (int axis = 0; axis < D; ++axis) {
         point[axis] = low(axis) + random.uniform() * (room_.box[axis] - 2.0 * low(axis));
       }
-      place_at(point);
+      failures_ = place_at(point) ? 0 : failures_ + 1;
     }
     return true;
   }
@@ -246,31 +251,42 @@ class SparseInsertion : public RandomInsertion<D>::Work {
   double low(int axis) const { return room_.walled[axis] ? 0.5 * room_.diameter : 0.0; }
 
   bool place_at(const Vec<D>& point) {
+    if (fixtures_.depth(point, 0.5 * room_.diameter, 0) > 0.0) return false;
     if (near_.any_within(point, room_.diameter)) return false;
     near_.add(point);
     return true;
   }
 
+  // Tries in succession after which fixtures fill the room.
+  static constexpr int kMostFailures = 1'000'000;
+
   Room<D> room_;
+  FixtureImages<D> fixtures_;
   NearParticles<D> near_;
+  std::uint64_t tries_ = 0;
+  int failures_ = 0;  // tries since the last particle
 };
 
 template <int D>
-std::unique_ptr<typename RandomInsertion<D>::Work> work_in(const Room<D>& room, std::size_t count) {
+std::unique_ptr<typename RandomInsertion<D>::Work> work_in(const Room<D>& room, std::size_t count,
+                                                          const FixtureImages<D>& fixtures) {
   constexpr double kSparse = 50.0;  // room per particle, in cubed (2D: squared) diameters
   const double cube =
       D == 2 ? room.diameter * room.diameter : room.diameter * room.diameter * room.diameter;
   if (room.box.prod() > kSparse * cube * static_cast<double>(count)) {
-    return std::make_unique<SparseInsertion<D>>(room);
+    return std::make_unique<SparseInsertion<D>>(room, fixtures);
   }
-  return std::make_unique<Insertion<D>>(room);
+  return std::make_unique<Insertion<D>>(room, fixtures);
 }
 
 }  // namespace
 
 template <int D>
-RandomInsertion<D>::RandomInsertion(const Room<D>& room, int count, Random& random)
-    : count_(static_cast<std::size_t>(count)), random_(random), work_(work_in(room, count_)) {}
+RandomInsertion<D>::RandomInsertion(const Room<D>& room, int count, Random& random,
+                                    const FixtureImages<D>& fixtures)
+    : count_(static_cast<std::size_t>(count)),
+      random_(random),
+      work_(work_in(room, count_, fixtures)) {}
 
 template <int D>
 RandomInsertion<D>::~RandomInsertion() = default;

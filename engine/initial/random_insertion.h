@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/laws/fixture.h"
 #include "engine/physics/lattice.h"
 #include "engine/physics/random.h"
 #include "engine/stop_request.h"
@@ -16,8 +17,10 @@ namespace clatter {
 template <int D>
 class RandomInsertion {
  public:
-  /// Begins the insertion of `count` centres. `random` must outlive the insertion.
-  RandomInsertion(const Room<D>& room, int count, Random& random);
+  /// Begins the insertion of `count` centres between fixtures in the room. `random` must outlive the
+  /// insertion.
+  RandomInsertion(const Room<D>& room, int count, Random& random,
+                  const FixtureImages<D>& fixtures = FixtureImages<D>());
   RandomInsertion(const RandomInsertion&) = delete;
   RandomInsertion& operator=(const RandomInsertion&) = delete;
   ~RandomInsertion();

@@ -194,9 +194,37 @@ class Melting {
 }  // namespace
 
 template <int D>
-static std::vector<Vec<D>> lattice_positions(const Room<D>& room, int count, std::uint64_t seed) {
-  std::vector<Vec<D>> sites = face_centred_lattice(room, count);
-  if (sites.empty()) sites = primitive_lattice(room, count);
+FixtureImages<D> start_fixtures(const Scene& scene) {
+  if (!scene.has_fixtures()) return FixtureImages<D>();
+  Domain<D> domain{.box = scene.box};
+  for (int axis = 0; axis < D; ++axis) domain.periodic[axis] = scene.periodic(axis);
+  return FixtureImages<D>(fixtures_of<D>(scene), domain, scene.clear_corner());
+}
+
+// The sites of a lattice that has at least so many outside of fixtures; empty: none has.
+template <int D>
+static std::vector<Vec<D>> lattice_sites(const Room<D>& room, int count,
+                                         const FixtureImages<D>& fixtures) {
+  constexpr double kGrowth = 1.1;
+  for (int wanted = count;; wanted = static_cast<int>(kGrowth * wanted) + 1) {
+    std::vector<Vec<D>> sites = face_centred_lattice(room, wanted);
+    if (sites.empty()) sites = primitive_lattice(room, wanted);
+    if (sites.empty() || !fixtures.any()) return sites;
+    std::erase_if(sites, [&](const Vec<D>& site) {
+      return fixtures.depth(site, 0.5 * room.diameter, 0) > 0.0;
+    });
+    if (static_cast<int>(sites.size()) >= count) return sites;
+  }
+}
+
+template <int D>
+static std::vector<Vec<D>> lattice_positions(const Room<D>& room, int count, std::uint64_t seed,
+                                             const FixtureImages<D>& fixtures) {
+  std::vector<Vec<D>> sites = lattice_sites(room, count, fixtures);
+  if (sites.empty() && count > 0) {
+    throw UserError({}, "no lattice has " + std::to_string(count) + " places beside the fixtures",
+                    "give fewer particles, or set particles.start.layout = \"random\"");
+  }
   Random random(seed, Stream::Placement, 0, 0);
   choose<D>(sites, static_cast<std::size_t>(count), random);
   return sites;
@@ -234,19 +262,19 @@ class StartWork : public StartMaker::Work {
         seed_(seed),
         stop_(stop),
         room_(scene.start_room<D>()),
+        fixtures_(start_fixtures<D>(scene)),
         random_(seed, Stream::Placement, 0, 0) {
     const Start& start = scene_.particles.start;
     if (start.layout == Layout::File) return;
     grains_ = grains_of(scene_);
     if (start.layout != Layout::Random) {
-      positions_ = lattice_positions(room_, count(), seed_);
+      positions_ = lattice_positions(room_, count(), seed_, fixtures_);
     } else if (!have_equal_radii(grains_)) {
-      std::vector<double> radii;
-      for (const Grain& grain : grains_) radii.push_back(grain.radius);
-      removal_.emplace(Domain<D>{.box = room_.box, .periodic = periodic()}, std::move(radii),
-                       random_);
+      begin_removal();
     } else if (fraction() <= kInsertionFraction<D>) {
-      insertion_.emplace(room_, count(), random_);
+      insertion_.emplace(room_, count(), random_, fixtures_);
+    } else if (fixtures_.any()) {
+      begin_removal();
     }
   }
 
@@ -256,8 +284,8 @@ class StartWork : public StartMaker::Work {
       positions_ = removal_->take();
       removal_.reset();
       if (positions_.empty()) {
-        const bool fits = lattice_capacity(room_) >= count();
-        throw UserError({}, "the particles of the mixture have found no places without overlaps",
+        const bool fits = !fixtures_.any() && lattice_capacity(room_) >= count();
+        throw UserError({}, "the particles have found no places without overlaps",
                         std::string("give fewer of them, or a larger box") +
                             (fits ? ", or set particles.start.layout = \"lattice\"" : ""));
       }
@@ -267,6 +295,10 @@ class StartWork : public StartMaker::Work {
       positions_ = insertion_->take();
       insertion_.reset();
       return_unused_memory();
+      if (!is_complete() && fixtures_.any()) {
+        begin_removal();
+        return advance(pause);
+      }
     }
     if (is_complete()) return true;
     if (!melting_) {
@@ -328,6 +360,13 @@ class StartWork : public StartMaker::Work {
     for (int axis = 0; axis < D; ++axis) periodic[axis] = !room_.walled[axis];
     return periodic;
   }
+  void begin_removal() {
+    const Grain alike{.radius = 0.5 * room_.diameter};
+    removal_.emplace(
+        Domain<D>{.box = room_.box, .periodic = periodic()},
+        grains_.empty() ? std::vector<Grain>(static_cast<std::size_t>(count()), alike) : grains_,
+        random_, fixtures_);
+  }
   // Packing fraction of particles that all have the largest diameter.
   double fraction() const {
     const double d = room_.diameter, cube = D == 2 ? d * d : d * d * d;
@@ -356,6 +395,7 @@ class StartWork : public StartMaker::Work {
   std::uint64_t seed_;
   StopRequest stop_;
   Room<D> room_;
+  FixtureImages<D> fixtures_;
   Random random_;
   std::vector<Grain> grains_;                    // of a mixture; empty: particles are alike
   std::optional<OverlapRemoval<D>> removal_;     // the present part of the work, or none
@@ -395,6 +435,8 @@ State<D> start_state(const Scene& scene, std::uint64_t seed, const StopRequest& 
   return std::get<State<D>>(maker.take());
 }
 
+template FixtureImages<2> start_fixtures(const Scene&);
+template FixtureImages<3> start_fixtures(const Scene&);
 template State<2> start_state(const Scene&, std::uint64_t, const StopRequest&);
 template State<3> start_state(const Scene&, std::uint64_t, const StopRequest&);
 

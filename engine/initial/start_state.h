@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "engine/laws/fixture.h"
 #include "engine/laws/model.h"
 #include "engine/scene/scene.h"
 #include "engine/stop_request.h"
@@ -33,6 +34,10 @@ class StartMaker {
   std::unique_ptr<Work> work_;
 };
 
+/// The fixtures of a scene, for positions in its start_room().
+template <int D>
+FixtureImages<D> start_fixtures(const Scene& scene);
+
 /// The state of a scene at time 0, a pure function of scene and seed. No particles overlap.
 /// Velocities are Gaussian with mean 0 (N >= 2) and exactly the start temperature. Spins, if the
 /// scene has them, are Gaussian with exactly their temperature I <omega^2>. Particles are outside
@@ -42,7 +47,8 @@ class StartMaker {
 /// spheres. Up to 0.7 and 0.54, where a fluid exists, it melts a lattice. Above it is a lattice
 /// with random vacancies. From 0.49 on a crystal of spheres is stable beside the fluid, and some of
 /// its order may remain. Species of one diameter have these places at random, and those of several
-/// diameters have the places of OverlapRemoval. The scene must be validated: its count fits one of
+/// diameters have the places of OverlapRemoval. Between fixtures random insertion comes first, and
+/// then OverlapRemoval. A lattice has no sites in fixtures. The scene must be validated: its count fits one of
 /// the lattices. Throws Interrupted.
 template <int D>
 State<D> start_state(const Scene& scene, std::uint64_t seed, const StopRequest& stop = {});

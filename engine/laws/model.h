@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/laws/domain.h"
+#include "engine/laws/fixture.h"
 #include "engine/laws/wall.h"
 #include "engine/physics/collision.h"
 #include "engine/physics/grain.h"
@@ -81,6 +82,7 @@ template <int D>
 struct Model {
   Vec<D> box = Vec<D>::Zero();                   ///< edge lengths
   std::array<std::optional<Wall>, 2 * D> walls;  ///< indexed by Side; a pair absent: periodic
+  std::vector<Fixture<D>> fixtures;              ///< bodies at rest in the box
   double diameter = 1.0;                         ///< of each particle; of a mixture: the largest
   double restitution = 1.0;                      ///< alpha of collisions between particles
   Roughness roughness;                           ///< of the particles
@@ -103,7 +105,7 @@ struct Model {
   const Wall& wall(int side, std::uint32_t number) const {
     return species ? *species->walls[number][side] : *walls[side];
   }
-  /// Calls visit(wall) for each wall, as each species meets it.
+  /// Calls visit(law) for each wall and fixture, as each species meets it.
   template <class Visit>
   void for_walls(const Visit& visit) const {
     const auto visit_all = [&](const auto& of_sides) {
@@ -112,6 +114,10 @@ struct Model {
       }
     };
     visit_all(walls);
+    for (const Fixture<D>& fixture : fixtures) {
+      visit(fixture.law);
+      for (const Wall& law : fixture.of_species) visit(law);
+    }
     if (!species) return;
     for (const auto& of_species : species->walls) visit_all(of_species);
   }

@@ -9,13 +9,14 @@ void CollisionWatch<D>::on_collision(const PairCollision<D>& collision) {
   const std::uint32_t first = collision.particles[0].particle,
                       second = collision.particles[1].particle;
   if (first != particle_ && second != particle_) return;
-  last_ = {simulation_.time(), first == particle_ ? second : first, 0};
+  last_ = {simulation_.time(), first == particle_ ? second : first};
 }
 
 template <int D>
 void CollisionWatch<D>::on_wall(const WallCollision<D>& collision) {
-  if (collision.particle.particle == particle_)
-    last_ = {simulation_.time(), std::nullopt, collision.side};
+  if (collision.particle.particle != particle_) return;
+  last_ = {simulation_.time(), std::nullopt, collision.side};
+  if (!collision.at_wall()) last_->fixture = simulation_.model().fixtures[collision.fixture].name;
 }
 
 template <int D>

@@ -2,16 +2,18 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "engine/dynamics/simulation.h"
 
 namespace clatter {
 
-/// A collision of a particle with another particle or with a wall.
+/// A collision of a particle with another particle, with a wall or with a fixture.
 struct ParticleCollision {
   double time = 0.0;                     ///< simulation time
-  std::optional<std::uint32_t> partner;  ///< the other particle; absent: a wall
+  std::optional<std::uint32_t> partner;  ///< the other particle; absent: a wall or a fixture
   int side = 0;                          ///< Side of the wall, if there is no partner
+  std::string fixture = {};              ///< name of the fixture; empty: a wall
 };
 
 /// Observer that keeps the last collision of one particle.

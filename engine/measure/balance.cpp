@@ -222,13 +222,15 @@ void Balance<D>::on_wall(const WallCollision<D>& collision) {
   const ParticleChange<D>& particle = collision.particle;
   follow(particle.particle, particle.before, collision.time);
   weigh(particle);
-  const int axis = collision.side / 2;
-  const Vec<D> branch =
-      particle.grain.radius * Boundary<D>::inward(collision.side) * Vec<D>::Unit(axis);
+  const Vec<D> branch = collision.branch();
   const Vec<D> touching = particle.position - branch;
   const Cell& to = particles_[particle.particle].cell;
-  Cell from = to;
-  from[axis] = grid_.cell_at(touching)[axis];
+  Cell from = grid_.cell_at(touching);
+  if (collision.at_wall()) {
+    const int axis = collision.side / 2;
+    from = to;
+    from[axis] = grid_.cell_at(touching)[axis];
+  }
   arise(from, given<D>(particle));
   transport(touching, branch, from, to, given<D>(particle));
 }

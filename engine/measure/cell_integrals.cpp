@@ -226,8 +226,7 @@ template <int D>
 void CellIntegrals<D>::on_wall(const WallCollision<D>& collision) {
   const ParticleChange<D>& particle = collision.particle;
   end_flight(particle, collision.time);
-  Vec<D> branch = Vec<D>::Zero();
-  branch[collision.side / 2] = particle.grain.radius * Boundary<D>::inward(collision.side);
+  const Vec<D> branch = collision.branch();
   add_transfer(particle.position - branch, branch, particle.gain.momentum, particle.energy());
 }
 

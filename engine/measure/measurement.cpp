@@ -133,14 +133,17 @@ void Measurement<D>::plan_averages() {
   started_ = false;
   windows_.clear();
   species_windows_.clear();
+  fixture_windows_.clear();
   columns_.clear();
   parts_ = {};
   residuals_ = {};
   samples_ = 0;
   of_species_.reset();
+  of_fixtures_.reset();
   of_cells_.reset();
   of_balance_.reset();
   species_.reset();
+  fixtures_.reset();
   cells_.reset();
   balance_.reset();
   observables_.emplace(simulation_, measure_);
@@ -219,14 +222,16 @@ void Measurement<D>::fit_series() {
 template <int D>
 template <class Archive>
 void Measurement<D>::visit_averages(Archive& io) {
-  auto& [simulation, measure, end, balanced, fields, totals, species, cells, balance, series_start,
-         averages_start, window, started, counts_at_start, windows, species_windows, columns, parts,
-         residuals, samples, series, observables, go_on, particles, own, of_totals, of_species,
-         of_cells, of_balance, timers] = *this;
+  auto& [simulation, measure, end, balanced, fields, totals, species, fixtures, cells, balance, series_start,
+         averages_start, window, started, counts_at_start, windows, species_windows,
+         fixture_windows, columns, parts, residuals, samples, series, observables, go_on, particles,
+         own, of_totals, of_species, of_fixtures, of_cells, of_balance, timers] = *this;
   io(averages_start, window, started, counts_at_start, windows, columns, parts, residuals, samples);
   if (simulation.model().species) io(species_windows);
-  if (started && !species && !cells && !balance) open_sums();
+  if (!simulation.model().fixtures.empty()) io(fixture_windows);
+  if (started && !species && !fixtures && !cells && !balance) open_sums();
   if (species) io(*species);
+  if (fixtures) io(*fixtures);
   if (cells) io(*cells);
   if (balance) io(*balance);
 }
@@ -282,6 +287,9 @@ void Measurement<D>::open_sums() {
   if (simulation_.model().species) {
     of_species_.emplace(simulation_, species_.emplace(simulation_));
   }
+  if (!simulation_.model().fixtures.empty()) {
+    of_fixtures_.emplace(simulation_, fixtures_.emplace(simulation_));
+  }
   const IntVec<D> cells = cells_of<D>(measure_);
   if (balanced_) of_balance_.emplace(simulation_, balance_.emplace(simulation_, cells));
   if (measure_.fields.empty()) return;
@@ -297,6 +305,7 @@ template <int D>
 void Measurement<D>::close_window() {
   windows_.push_back(totals_.close_window());
   if (species_) species_windows_.push_back(species_->close_window());
+  if (fixtures_) fixture_windows_.push_back(fixtures_->close_window());
   observables_->close_window();
   if (cells_) {
     CellSums window = cells_->close_window();
@@ -452,8 +461,11 @@ Measured Measurement<D>::means() const {
     measured.species = species_means<D>(species_windows_, model, counts);
     measured.pairs = pair_means<D>(species_windows_, model, counts);
   }
-  const bool walled = std::ranges::any_of(model.walls, [](const auto& wall) { return !!wall; });
-  if (!walled && count >= 2.0) {
+  if (!model.fixtures.empty()) {
+    measured.walls_in = estimate([](const auto& w) { return w.walls_in / w.duration; });
+    measured.fixtures = fixture_means<D>(fixture_windows_, model);
+  }
+  if (model.is_periodic() && model.fixtures.empty() && count >= 2.0) {
     // The total momentum is conserved, so D(N - 1) degrees of freedom carry the temperature.
     const auto virial = series_of(windows_, [](const auto& w) { return w.virial / D; });
     const auto thermal = series_of(windows_, [&](const auto& w) {

@@ -9,6 +9,7 @@
 #include "engine/measure/balance.h"
 #include "engine/measure/cell_integrals.h"
 #include "engine/measure/field_maps.h"
+#include "engine/measure/fixture_totals.h"
 #include "engine/measure/profile.h"
 #include "engine/measure/residuals.h"
 #include "engine/measure/species_means.h"
@@ -51,7 +52,7 @@ struct Measured {
   std::optional<Estimate> spin_temperature;  ///< T_rot = I <omega^2>; absent without spins
   std::vector<Estimate> kurtosis_excess;     ///< [D] <v_k^4>/(3 <v_k^2>^2) - 1
   Estimate collision_rate;  ///< pair collisions per particle and time; each counts for both
-  std::optional<Estimate> walls_in;    ///< power of the walls
+  std::optional<Estimate> walls_in;    ///< power of walls and fixtures
   std::optional<Estimate> bulk_in;     ///< power of the kicks of bulk driving
   std::optional<Estimate> nudges_in;   ///< power of nudges; absent: none so far
   std::optional<Estimate> gravity_in;  ///< power of gravity
@@ -65,6 +66,7 @@ struct Measured {
   std::optional<Estimate> compressibility;  ///< Z = p/(rho T) from the virial, fully periodic boxes
   std::vector<SpeciesMeans> species;        ///< [S] of a mixture; empty: the particles are alike
   std::vector<PairMeans> pairs;             ///< of the pairs of species of a mixture
+  std::vector<FixtureMeans> fixtures;       ///< of the obstacles, then of the partitions
   std::optional<Profile> profile;           ///< if averaged fields are requested
   std::optional<Residuals> residuals;       ///< if residuals are requested
   std::optional<FieldMaps> maps;            ///< of all requested fields, over `duration`
@@ -152,6 +154,7 @@ class Measurement final : private Observer<D> {
   std::vector<Field> fields_;  // those of measure_, and of each species of a mixture
   Totals<D> totals_;
   std::optional<SpeciesTotals<D>> species_;  // of a mixture
+  std::optional<FixtureTotals<D>> fixtures_;  // if there are fixtures
   std::optional<CellIntegrals<D>> cells_;
   std::optional<Balance<D>> balance_;
   double series_start_ = 0.0;  // simulation times
@@ -161,6 +164,7 @@ class Measurement final : private Observer<D> {
   EventCounts counts_at_start_;
   std::vector<WindowTotals<D>> windows_;
   std::vector<SpeciesTotalsWindow<D>> species_windows_;  // [windows] of a mixture
+  std::vector<FixtureTotalsWindow<D>> fixture_windows_;  // [windows] with fixtures
   std::vector<CellSums> columns_;                        // [windows]
   PartSums<CellSums> parts_;                             // of the windows
   Residuals residuals_;
@@ -170,7 +174,7 @@ class Measurement final : private Observer<D> {
   bool go_on_ = true;      // whether the averages continue under the next laws
   std::size_t particles_;  // number of them under the present laws
   Observation<D> own_, of_totals_;
-  std::optional<Observation<D>> of_species_, of_cells_, of_balance_;
+  std::optional<Observation<D>> of_species_, of_fixtures_, of_cells_, of_balance_;
   std::optional<Timers<D>> timers_;
 };
 

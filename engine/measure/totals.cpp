@@ -133,6 +133,7 @@ void Totals<D>::on_wall(const WallCollision<D>& collision) {
   change(collision.particle);
   book(collision.particle.energy());
   window_.walls_in += collision.particle.energy();
+  if (!collision.at_wall()) return;
   window_.wall_impulse[collision.side] +=
       std::fabs(collision.particle.gain.momentum[collision.side / 2]);
 }

@@ -19,7 +19,7 @@ struct WindowTotals {
   double collisions = 0.0;                   ///< between particles
   double elasticised = 0.0;                  ///< of these, made elastic by the TC model
   double spin_temperature = 0.0;             ///< exact time average of <I omega^2> per component
-  double walls_in = 0.0;                     ///< energy input of the walls
+  double walls_in = 0.0;                     ///< energy input of walls and fixtures
   double bulk_in = 0.0;                      ///< energy input of kicks
   double nudges_in = 0.0;                    ///< energy input of nudges and puffs
   double gravity_in = 0.0;                   ///< work of gravity on the flights that ended

@@ -56,6 +56,7 @@ void WallHits<D>::restore(ArchiveReader& io) {
 
 template <int D>
 void WallHits<D>::on_wall(const WallCollision<D>& collision) {
+  if (!collision.at_wall()) return;
   const int axis = collision.side / 2;
   const ParticleChange<D>& change = collision.particle;
   const double before = change.velocity[axis];

@@ -62,6 +62,7 @@ void WallPower<D>::restore(ArchiveReader& io) {
 
 template <int D>
 void WallPower<D>::on_wall(const WallCollision<D>& collision) {
+  if (!collision.at_wall()) return;
   energy_[static_cast<std::size_t>(collision.side)] += collision.particle.energy();
 }
 

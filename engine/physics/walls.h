@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "engine/physics/collision.h"
@@ -9,25 +10,30 @@
 
 namespace clatter {
 
-/// Velocity after a static or driven wall (theory 4.1): v_n' = alpha_w |v_n| + v_dr along the
-/// wall's normal, which points into the box along +-`axis` (`inward` = +1 or -1). Both velocities
-/// are relative to the wall, which moves at `wall_velocity` along the normal. The other components
-/// stay.
+/// A velocity with another component along a unit vector. For a coordinate axis it is exact.
 template <int D>
-Vec<D> reflect(Vec<D> v, int axis, double inward, double restitution, double drive_speed,
+Vec<D> with_normal(const Vec<D>& v, const Vec<D>& normal, double component) {
+  return (v - v.dot(normal) * normal) + component * normal;
+}
+
+/// Velocity after a static or driven wall (theory 4.1): v_n' = alpha_w |v_n| + v_dr along `normal`,
+/// the wall's unit vector towards the gas. Both velocities are relative to the wall, which moves at
+/// `wall_velocity` along the normal. The other components stay.
+template <int D>
+Vec<D> reflect(const Vec<D>& v, const Vec<D>& normal, double restitution, double drive_speed,
                double wall_velocity = 0.0) {
-  const double approach = std::fabs(v[axis] - inward * wall_velocity);
-  v[axis] = inward * (restitution * approach + drive_speed + wall_velocity);
-  return v;
+  const double approach = std::fabs(v.dot(normal) - wall_velocity);
+  return with_normal<D>(v, normal, restitution * approach + drive_speed + wall_velocity);
 }
 
 /// Velocity after a wall that moves (theory 4.2): v_n' = -alpha_w v_n + (1 + alpha_w) u, the
 /// reflection in the wall's frame, where u = `wall_velocity` along the normal into the box. A wall
 /// that overtakes a particle (0 < v_n < u) hits it from behind.
 template <int D>
-Vec<D> reflect_moving(Vec<D> v, int axis, double inward, double restitution, double wall_velocity) {
-  v[axis] = inward * (1.0 + restitution) * wall_velocity - restitution * v[axis];
-  return v;
+Vec<D> reflect_moving(const Vec<D>& v, const Vec<D>& normal, double restitution,
+                      double wall_velocity) {
+  return with_normal<D>(v, normal,
+                        (1.0 + restitution) * wall_velocity - restitution * v.dot(normal));
 }
 
 /// Change of a particle's motion at a wall.
@@ -43,10 +49,9 @@ struct MotionChange {
 /// impulse |v_n' - v_n| of every kind of wall.
 template <int D>
 MotionChange<D> wall_friction(const Vec<D>& before, const Vec<D>& after, const Spin<D>& spin,
-                              int axis, double inward, const ContactLaw& law, const Grain& grain) {
+                              const Vec<D>& n, const ContactLaw& law, const Grain& grain) {
   if (!law.rough()) return {};
-  const Vec<D> n = inward * Vec<D>::Unit(axis);
-  const double normal_change = std::fabs(after[axis] - before[axis]);
+  const double normal_change = std::fabs(after.dot(n) - before.dot(n));
   const Spin<D> surface = grain.radius * spin;
   const auto [slip, share] = friction_of<D>(n, before, surface, normal_change, law, grain.inertia);
   return {-grain.inertia * share * slip, share / grain.radius * cross<D>(n, slip)};
@@ -55,13 +60,21 @@ MotionChange<D> wall_friction(const Vec<D>& before, const Vec<D>& after, const S
 /// Velocity after a thermal wall of temperature T_w (theory 4.7): the normal component has the
 /// flux-weighted density (m v/T_w) exp(-m v^2/2T_w), v = sqrt(-2 (T_w/m) ln U), the others are
 /// Gaussian of variance T_w/m. `variance` is T_w/m, `uniform` is in (0,1); `normals` holds D - 1
-/// standard normal variates.
+/// standard normal variates. They belong to the coordinate axes except the one nearest to the
+/// normal, made orthogonal in order.
 template <int D>
-Vec<D> emit(int axis, double inward, double variance, double uniform, const double* normals) {
-  Vec<D> v;
-  for (int k = 0; k < D; ++k) {
-    v[k] = k == axis ? inward * std::sqrt(-2.0 * variance * natural_log(uniform))
-                     : std::sqrt(variance) * *normals++;
+Vec<D> emit(const Vec<D>& normal, double variance, double uniform, const double* normals) {
+  int nearest = 0;
+  normal.cwiseAbs().maxCoeff(&nearest);
+  std::array<Vec<D>, D> basis = {normal};
+  Vec<D> v = std::sqrt(-2.0 * variance * natural_log(uniform)) * normal;
+  int made = 1;
+  for (int axis = 0; axis < D; ++axis) {
+    if (axis == nearest) continue;
+    Vec<D> tangent = Vec<D>::Unit(axis);
+    for (int k = 0; k < made; ++k) tangent -= tangent.dot(basis[k]) * basis[k];
+    basis[made++] = tangent /= tangent.norm();
+    v += std::sqrt(variance) * *normals++ * tangent;
   }
   return v;
 }

@@ -34,6 +34,9 @@ inline constexpr std::array<Named<WallKind>, 5> kWallKinds = {
      {"sawtooth", WallKind::Sawtooth},
      {"sinusoidal", WallKind::Sinusoidal}}};
 
+inline constexpr std::array<Named<ObstacleKind>, 3> kObstacleKinds = {
+    {{"ball", ObstacleKind::Ball}, {"polygon", ObstacleKind::Polygon}, {"box", ObstacleKind::Box}}};
+
 inline constexpr std::array<Named<ColourBy>, 9> kColourings = {{{"none", ColourBy::None},
                                                                 {"speed", ColourBy::Speed},
                                                                 {"velocity_x", ColourBy::VelocityX},

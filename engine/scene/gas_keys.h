@@ -104,6 +104,103 @@ void visit_species_wall(Visitor& io, SpeciesWall& differences, const Wall& wall)
            between(0.0, kMaxTemperature), thermal ? kOptional : kNotOfWall);
 }
 
+inline constexpr auto kFixtureKeys = key_table(
+    kRunCommands,
+    {{"name", "",
+      "Name in results, of letters, digits, `_` and `-`. Without a value the kind and a number."},
+     {"restitution", "1", "Ratio of the normal velocities after and before a bounce."},
+     {"drive_speed", "a/t",
+      "Gain in normal velocity at each bounce. Without a value the surface is at rest."},
+     {"temperature", "m a^2/t^2",
+      "Temperature of the particles that leave. Without a value the surface reflects."}});
+
+/// The keys of the law of an obstacle or a partition.
+template <class Visitor>
+void visit_fixture_law(Visitor& io, FixtureLaw& law, const std::vector<std::string>& species) {
+  SpeciesWall& all = law.of_all;
+  io.value(kFixtureKeys.at("temperature"), all.temperature, between(0.0, kMaxTemperature));
+  const bool thermal = all.temperature.has_value();
+  const Presence of_touch = thermal ? kNotOfThermal : kOptional;
+  io.value(kFixtureKeys.at("restitution"), all.restitution, between(0.0, kMaxWallRestitution),
+           of_touch);
+  visit_roughness(io, all.roughness, of_touch);
+  io.value(kFixtureKeys.at("drive_speed"), all.drive_speed, between(0.0, kMaxSpeed), of_touch);
+  law.of_species.resize(species.size());
+  io.table("species", [&](auto& io) {
+    for (std::size_t k = 0; k < species.size(); ++k) {
+      io.table(species[k], [&](auto& io) {
+        SpeciesWall& one = law.of_species[k];
+        io.value(kSpeciesWallKeys.at("restitution"), one.restitution,
+                 between(0.0, kMaxWallRestitution), of_touch);
+        visit_other_roughness(io, one.roughness, of_touch);
+        io.value(kSpeciesWallKeys.at("drive_speed"), one.drive_speed, between(0.0, kMaxSpeed),
+                 all.drive_speed ? of_touch : kNotWithoutDrive);
+        io.value(kSpeciesWallKeys.at("temperature"), one.temperature,
+                 between(0.0, kMaxTemperature), thermal ? kOptional : kNotWithoutTemperature);
+      });
+    }
+  });
+}
+
+inline constexpr auto kObstacleKeys = key_table(
+    kRunCommands,
+    {{"kind", "", "Shape: a ball (in 2D a disk), a polygon in 2D, or a box along the axes."},
+     {"centre", "a", "Centre of a ball."},
+     {"radius", "a", "Radius of a ball."},
+     {"corners", "a", "Corners of a polygon, in order around it."},
+     {"from", "a", "Lowest corner of a box."},
+     {"to", "a", "Highest corner of a box."}});
+
+/// The keys of one item of [[obstacle]]. Its kind determines which of them are allowed.
+template <class Visitor>
+void visit_obstacle(Visitor& io, Obstacle& obstacle, int dimension,
+                    const std::vector<std::string>& species) {
+  for (VecX* place : {&obstacle.centre, &obstacle.from, &obstacle.to}) {
+    if (place->size() != dimension) *place = VecX::Zero(dimension);
+  }
+  const Limits place = between(-kMaxLength, 2.0 * kMaxLength);
+  const auto of = [&](ObstacleKind kind) {
+    return obstacle.kind == kind ? kRequired : kNotOfObstacle;
+  };
+  io.value(kFixtureKeys.at("name"), obstacle.name, Limits{});
+  io.choice(kObstacleKeys.at("kind"), obstacle.kind, kObstacleKinds, kRequired);
+  io.value(kObstacleKeys.at("centre"), obstacle.centre, place, of(ObstacleKind::Ball));
+  io.value(kObstacleKeys.at("radius"), obstacle.radius,
+           Limits{.lowest = 0.0, .highest = kMaxLength, .above = true}, of(ObstacleKind::Ball));
+  io.value(kObstacleKeys.at("corners"), obstacle.corners, place, of(ObstacleKind::Polygon));
+  io.value(kObstacleKeys.at("from"), obstacle.from, place, of(ObstacleKind::Box));
+  io.value(kObstacleKeys.at("to"), obstacle.to, place, of(ObstacleKind::Box));
+  visit_fixture_law(io, obstacle.law, species);
+}
+
+inline constexpr auto kPartitionKeys = key_table(
+    kRunCommands,
+    {{"axis", "", "Axis at right angles to the partition."},
+     {"position", "a", "Position along this axis. The partition has no thickness."},
+     {"passes", "", "Names of species that do not see the partition: it is a membrane."}});
+inline constexpr auto kHoleKeys = key_table(
+    kRunCommands,
+    {{"from", "a", "Lower end of the hole along the other axis. In 3D along the other two, in order."},
+     {"to", "a", "Upper end of the hole, in the same way."}});
+
+/// The keys of one item of [[partition]].
+template <class Visitor>
+void visit_partition(Visitor& io, Partition& partition, int dimension,
+                     const std::vector<std::string>& species) {
+  io.value(kFixtureKeys.at("name"), partition.name, Limits{});
+  io.choice(kPartitionKeys.at("axis"), partition.axis, kAxes);
+  io.value(kPartitionKeys.at("position"), partition.position, between(0.0, kMaxLength), kRequired);
+  io.value(kPartitionKeys.at("passes"), partition.passes, between(0, kMaxSpecies));
+  visit_fixture_law(io, partition.law, species);
+  io.list("holes", partition.holes, [&](auto& io, Hole& hole) {
+    for (VecX* end : {&hole.from, &hole.to}) {
+      if (end->size() != dimension - 1) *end = VecX::Zero(dimension - 1);
+    }
+    io.value(kHoleKeys.at("from"), hole.from, between(0.0, kMaxLength), kRequired);
+    io.value(kHoleKeys.at("to"), hole.to, between(0.0, kMaxLength), kRequired);
+  });
+}
+
 inline constexpr auto kStartKeys = key_table(
     kRunCommands,
     {{"layout", "", "Positions at time 0: random, on a lattice, or from a file."},

@@ -148,6 +148,17 @@ bool KeyReader::read(const toml::node& node, Limits limits, Vec2& value) {
   return true;
 }
 
+// The limits are those of the coordinates.
+bool KeyReader::read(const toml::node& node, Limits limits, std::vector<Vec2>& points) {
+  const toml::array* array = node.as_array();
+  if (!array) return false;
+  points.clear();
+  for (const toml::node& item : *array) {
+    if (!read(item, limits, points.emplace_back())) return false;
+  }
+  return true;
+}
+
 // Requires as many numbers as the default has: the dimension of the scene. Without a default two or
 // three.
 bool KeyReader::read(const toml::node& node, Limits limits, VecX& value) {

@@ -135,6 +135,7 @@ class KeyReader {
   static bool read(const toml::node& node, Limits limits, bool& value);
   static bool read(const toml::node& node, Limits limits, std::string& value);
   static bool read(const toml::node& node, Limits limits, Vec2& value);
+  static bool read(const toml::node& node, Limits limits, std::vector<Vec2>& points);
   static bool read(const toml::node& node, Limits limits, VecX& value);
   static bool read(const toml::node& node, Limits limits, std::vector<int>& value);
   static bool read(const toml::node& node, Limits limits, std::vector<std::string>& texts);

@@ -53,6 +53,18 @@ inline constexpr Presence kNotBesideFile = {
     "remove it, or choose another layout"};
 inline constexpr Presence kNotBesideMass = {Presence::Forbidden, "has no meaning beside mass",
                                             "remove one of the two"};
+inline constexpr Presence kNotOfObstacle = {Presence::Forbidden,
+                                            "has no meaning for this kind of obstacle",
+                                            "remove it or choose another kind"};
+inline constexpr Presence kNotOfThermal = {
+    Presence::Forbidden, "has no meaning beside temperature: a thermal surface emits all particles",
+    "remove one of the two"};
+inline constexpr Presence kNotWithoutDrive = {
+    Presence::Forbidden, "has no meaning without drive_speed for all species",
+    "remove it, or give drive_speed, which may be 0"};
+inline constexpr Presence kNotWithoutTemperature = {
+    Presence::Forbidden, "has no meaning without a temperature for all species",
+    "remove it, or give a temperature"};
 inline constexpr Presence kNotWithoutSpins = {
     Presence::Forbidden, "has no meaning where nothing spins",
     "remove it, or make the particles or a wall rough: give friction above 0, or "

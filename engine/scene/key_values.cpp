@@ -26,6 +26,7 @@ static std::string within(const std::string& what, Limits limits) {
 
 // The number of values and their axes in words.
 static std::string count_and_axes(const std::string& numbers, Limits limits, std::size_t size) {
+  if (size == 1) return "a list of one number" + within("", limits);
   return (size == 2 ? "two " : "three ") + numbers + within("", limits) +
          (size == 2 ? ", along x and y" : ", along x, y and z");
 }
@@ -54,6 +55,10 @@ std::string allowed_values(const std::vector<std::string>&, Limits limits) {
 
 std::string allowed_values(const Vec2&, Limits limits) {
   return count_and_axes("numbers", limits, 2);
+}
+
+std::string allowed_values(const std::vector<Vec2>&, Limits limits) {
+  return "a list of points, each two numbers" + within("", limits);
 }
 
 std::string allowed_values(const VecX& numbers, Limits limits) {

@@ -16,6 +16,7 @@ std::string allowed_values(bool flag, Limits limits);
 std::string allowed_values(const std::string& text, Limits limits);
 std::string allowed_values(const std::vector<std::string>& texts, Limits limits);
 std::string allowed_values(const Vec2& numbers, Limits limits);
+std::string allowed_values(const std::vector<Vec2>& points, Limits limits);
 std::string allowed_values(const VecX& numbers, Limits limits);
 std::string allowed_values(const std::vector<int>& numbers, Limits limits);
 std::string allowed_values(const ColourRange& range, Limits limits);

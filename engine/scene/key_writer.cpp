@@ -43,6 +43,10 @@ std::string value_text(const Vec2& vector) {
   return array_text(vector);
 }
 
+std::string value_text(const std::vector<Vec2>& points) {
+  return points.empty() ? "[]" : array_text(points);
+}
+
 std::string value_text(const VecX& vector) {
   return array_text(vector);
 }
@@ -73,11 +77,12 @@ std::string TomlWriter::path() const {
   return path;
 }
 
+static void append(std::string& list, const std::string& item) {
+  list += (list.empty() ? "" : ", ") + item;
+}
+
 void TomlWriter::write(std::string_view key, const std::string& value) {
-  if (inline_) {
-    *inline_ += std::string(inline_->empty() ? "" : ", ") + std::string(key) + " = " + value;
-    return;
-  }
+  if (!inline_.empty()) return append(inline_.back().text, std::string(key) + " = " + value);
   if (header_due_) {
     text_ += "\n[" + path() + "]\n";
     header_due_ = false;
@@ -86,31 +91,60 @@ void TomlWriter::write(std::string_view key, const std::string& value) {
 }
 
 void TomlWriter::open(std::string_view key) {
-  path_.emplace_back(key);
-  header_due_ = !in_item_;
-  if (in_item_) inline_.emplace();
+  if (in_item_) {
+    inline_.push_back({std::string(key), ""});
+  } else {
+    path_.emplace_back(key);
+    header_due_ = true;
+  }
 }
 
 void TomlWriter::close() {
-  const std::string key = path_.back();
-  path_.pop_back();
-  header_due_ = false;
-  if (!inline_) return;
-  const std::string values = *std::exchange(inline_, std::nullopt);
-  write(key, "{ " + values + " }");
+  if (in_item_) {
+    const Inline table = inline_.back();
+    inline_.pop_back();
+    if (!table.text.empty()) write(table.key, "{ " + table.text + " }");
+  } else {
+    path_.pop_back();
+    header_due_ = false;
+  }
 }
 
 void TomlWriter::open_list(std::string_view key, bool) {
-  path_.emplace_back(key);
+  if (in_item_) {
+    inline_.push_back({std::string(key), ""});
+  } else {
+    path_.emplace_back(key);
+  }
 }
 
 void TomlWriter::open_item() {
-  in_item_ = true;
-  text_ += "\n[[" + path() + "]]\n";
+  if (in_item_) {
+    inline_.emplace_back();
+  } else {
+    in_item_ = true;
+    text_ += "\n[[" + path() + "]]\n";
+  }
+}
+
+void TomlWriter::close_item() {
+  if (inline_.empty()) {
+    in_item_ = false;
+  } else {
+    const std::string table = inline_.back().text;
+    inline_.pop_back();
+    append(inline_.back().text, "{ " + table + " }");
+  }
 }
 
 void TomlWriter::close_list() {
-  path_.pop_back();
+  if (in_item_) {
+    const Inline list = inline_.back();
+    inline_.pop_back();
+    if (!list.text.empty()) write(list.key, '[' + list.text + ']');
+  } else {
+    path_.pop_back();
+  }
 }
 
 void TomlWriter::settings(std::string_view key, const std::vector<Override>& settings) {

@@ -20,6 +20,7 @@ std::string value_text(bool flag);
 std::string value_text(const std::string& text);  ///< quoted, special characters escaped
 std::string value_text(const std::vector<std::string>& texts);
 std::string value_text(const Vec2& vector);               ///< as an array
+std::string value_text(const std::vector<Vec2>& points);  ///< as an array of arrays
 std::string value_text(const VecX& vector);               ///< as an array
 std::string value_text(const std::vector<int>& numbers);  ///< as an array
 std::string value_text(const ColourRange& range);         ///< as in the scene file
@@ -116,15 +117,19 @@ class TomlWriter final : public KeyWriter {
   void close() override;
   void open_list(std::string_view key, bool empty) override;
   void open_item() override;
-  void close_item() override { in_item_ = false; }
+  void close_item() override;
   void close_list() override;
   std::string path() const;
 
   std::string text_;
   std::vector<std::string> path_;      // of the current table
   bool header_due_ = false;            // a table without own values gets no header
-  bool in_item_ = false;               // tables of an item of a list are inline
-  std::optional<std::string> inline_;  // text of the open inline table; absent: no table is open
+  bool in_item_ = false;               // tables and lists of an item of a list are inline
+  // The open tables and lists of the item, the innermost last. A table of a list has no key.
+  struct Inline {
+    std::string key, text;
+  };
+  std::vector<Inline> inline_;
 };
 
 /// Writes a JSON object.

@@ -96,6 +96,8 @@ bool Scene::spins() const {
     for (int side = 0; side < 2 * dimension(); ++side) {
       any = any || (walls[side] && wall(side, a).roughness.any());
     }
+    for (const Obstacle& one : obstacles) any = any || one.law.wall(a).roughness.any();
+    for (const Partition& one : partitions) any = any || one.law.wall(a).roughness.any();
   }
   return any;
 }
@@ -175,6 +177,7 @@ Model<D> model_of(const Scene& scene, std::uint64_t seed) {
   model.roughness = scene.particles.roughness;
   model.inertia = scene.particles.inertia;
   if (!scene.species.empty()) model.species = species_laws<D>(scene);
+  if (scene.has_fixtures()) model.fixtures = fixtures_of<D>(scene);
   model.spins = scene.spins();
   model.gravity = scene.gravity ? Vec<D>(*scene.gravity) : Vec<D>(Vec<D>::Zero());
   model.bulk_drive = scene.bulk_drive;

@@ -14,6 +14,7 @@
 #include "engine/physics/state.h"
 #include "engine/scene/field.h"
 #include "engine/scene/observable_settings.h"
+#include "engine/scene/obstacle.h"
 #include "engine/scene/species.h"
 #include "engine/scene/view.h"
 #include "engine/vec.h"
@@ -130,6 +131,8 @@ struct Scene {
   std::array<std::optional<Wall>, 6> walls;  ///< indexed by Side; a pair absent: periodic
   /// [6][S] of each wall as each species meets it; the inner lists are empty without species
   std::array<std::vector<SpeciesWall>, 6> species_walls;
+  std::vector<Obstacle> obstacles;      ///< bodies at rest
+  std::vector<Partition> partitions;    ///< thin walls across the box
   std::optional<VecX> gravity;          ///< acceleration; absent: none
   std::optional<BulkDrive> bulk_drive;  ///< absent: none
   std::optional<double> contact_time;   ///< t_c > 0 of the TC model (theory 5.3); absent: off
@@ -158,6 +161,8 @@ struct Scene {
   PairLaw pair_law(std::size_t first, std::size_t second) const;
   /// The wall at a side as a species meets it. The side must have one.
   Wall wall(int side, std::size_t species) const;
+  /// Whether there are obstacles or partitions.
+  bool has_fixtures() const { return !obstacles.empty() || !partitions.empty(); }
   /// Largest displacement into the box of the near wall of each axis.
   VecX clear_corner() const;
   /// The size of the part of the box that no wall's motion reaches. It begins at clear_corner().
@@ -166,6 +171,10 @@ struct Scene {
   template <int D>
   Room<D> start_room() const;
 };
+
+/// The obstacles, then the partitions of a valid scene, for a model.
+template <int D>
+std::vector<Fixture<D>> fixtures_of(const Scene& scene);
 
 template <int D>
 Room<D> Scene::start_room() const {

@@ -13,6 +13,7 @@
 #include "engine/scene/key_lister.h"
 #include "engine/scene/key_reader.h"
 #include "engine/scene/key_writer.h"
+#include "engine/scene/obstacle_checks.h"
 #include "engine/scene/scene_checks.h"
 #include "engine/scene/scene_document.h"
 #include "engine/scene/scene_keys.h"
@@ -126,6 +127,7 @@ Scene read_scene(const toml::table& root, const std::string& file, StartFile sta
   }
   check_species(input, root, file);
   resolve_species(input, root, file);
+  check_fixtures(scene, root, file);
   check_scene(scene, root, file);
   const bool from_file = scene.particles.start.layout == Layout::File;
   if (from_file && start_file == StartFile::Skip) {

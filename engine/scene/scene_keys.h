@@ -76,6 +76,12 @@ void visit_scene(Visitor& io, SceneInput& input) {
       });
     }
   });
+  io.list("obstacle", scene.obstacles, [&](auto& io, Obstacle& obstacle) {
+    visit_obstacle(io, obstacle, dimension, input.species_names);
+  });
+  io.list("partition", scene.partitions, [&](auto& io, Partition& partition) {
+    visit_partition(io, partition, dimension, input.species_names);
+  });
   io.table("gravity", scene.gravity, [&](auto& io, VecX& acceleration) {
     if (acceleration.size() == 0) acceleration = VecX::Zero(scene.dimension());
     io.value(kGravityKeys.at("acceleration"), acceleration,

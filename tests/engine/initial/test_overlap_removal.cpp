@@ -59,7 +59,7 @@ Removal removal_of(const std::vector<Grain>& grains, double fraction) {
   std::vector<double> radii;
   for (const Grain& grain : grains) radii.push_back(grain.radius);
   Random random(8, Stream::Placement, 0, 0);
-  OverlapRemoval<2> work(box_for<2>(grains, fraction, false).domain(), radii, random);
+  OverlapRemoval<2> work(box_for<2>(grains, fraction, false).domain(), grains, random);
   Removal result;
   bool pauses = false;
   result.progress.push_back(work.progress());

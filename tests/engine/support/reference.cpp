@@ -146,7 +146,8 @@ void Reference<D>::hit_wall(const Event& event) {
   if (!model_.walls[side]->moves())
     r[side / 2] = boundary_.touching_place(side, grain(i).radius, now_);
   const Departure<D> departure = wall_outcome<D>(
-      model_, side, boundary_.wall(side, now_),
+      model_, model_.wall(side, grain(i).species), Boundary<D>::normal(side),
+      boundary_.wall(side, now_),
       {flights_[i].velocity_at(now_, model_.gravity), spin(i), i, flights_[i].number, grain(i)},
       within_contact_time(i));
   renew(i, r, departure.velocity, departure.spin);

@@ -1,0 +1,107 @@
+#include "engine/laws/fixture.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace clatter {
+
+// Whether a ray along x from a position crosses a segment. Of two segments that meet on the ray it
+// crosses one if they are on both sides of the ray, and none or both otherwise.
+static bool crosses(const Piece<2>& plate, const Vec2& position) {
+  const Vec2 a = plate.corner - position;
+  const Vec2 b = a + plate.lengths[0] * plate.directions[0];
+  if ((a.y() > 0.0) == (b.y() > 0.0)) return false;
+  return a.x() + (b.x() - a.x()) * (a.y() / (a.y() - b.y())) > 0.0;
+}
+
+// The same for the rectangles of a box, whose edges are along the axes.
+static bool crosses(const Piece<3>& plate, const Vec<3>& position) {
+  if (plate.normal.x() == 0.0 || plate.corner.x() <= position.x()) return false;
+  const Vec<3> way = plate.foot(position) - position;
+  return way.y() == 0.0 && way.z() == 0.0;
+}
+
+template <int D>
+double distance_from(const Fixture<D>& fixture, const Vec<D>& position) {
+  double distance = std::numeric_limits<double>::infinity();
+  bool inside = false;
+  for (const Piece<D>& piece : fixture.pieces) {
+    distance = std::min(distance, piece.distance(position));
+    if (fixture.solid && piece.is_plate()) inside = inside != crosses(piece, position);
+  }
+  return inside ? -distance : distance;
+}
+
+template <int D>
+FixtureImages<D>::FixtureImages(const std::vector<Fixture<D>>& fixtures, const Domain<D>& domain,
+                                const Vec<D>& origin)
+    : fixtures_(fixtures) {
+  IntVec<D> most;
+  for (int axis = 0; axis < D; ++axis) most[axis] = domain.periodic[axis] ? 1 : 0;
+  for (std::size_t k = 0; k < fixtures_.size(); ++k) {
+    Vec<D> low = Vec<D>::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (const Piece<D>& piece : fixtures_[k].pieces) {
+      const auto [first, last] = piece.bounds();
+      low = low.cwiseMin(first);
+      high = high.cwiseMax(last);
+    }
+    IntVec<D> image = -most;
+    while (image[D - 1] <= most[D - 1]) {
+      const Vec<D> shift = origin - domain.shift(image.template cast<double>());
+      images_.push_back({k, shift, low - shift, high - shift});
+      for (int axis = 0; ++image[axis] > most[axis] && axis < D - 1; ++axis) {
+        image[axis] = -most[axis];
+      }
+    }
+  }
+}
+
+template <int D>
+template <class Visit>
+void FixtureImages<D>::visit_near(const Vec<D>& position, double radius, std::uint32_t species,
+                                  const Visit& visit) const {
+  for (const auto& [number, shift, low, high] : images_) {
+    const bool far = ((position - low).array() < -radius).any() ||
+                     ((position - high).array() > radius).any();
+    if (far || fixtures_[number].lets_pass(species)) continue;
+    visit(fixtures_[number], Vec<D>(position + shift));
+  }
+}
+
+template <int D>
+double FixtureImages<D>::depth(const Vec<D>& position, double radius,
+                               std::uint32_t species) const {
+  double deepest = 0.0;
+  visit_near(position, radius, species, [&](const Fixture<D>& fixture, const Vec<D>& place) {
+    deepest = std::max(deepest, radius - distance_from(fixture, place));
+  });
+  return deepest;
+}
+
+template <int D>
+Vec<D> FixtureImages<D>::way_out(const Vec<D>& position, double radius,
+                                 std::uint32_t species) const {
+  double deepest = 0.0;
+  Vec<D> way = Vec<D>::Zero();
+  visit_near(position, radius, species, [&](const Fixture<D>& fixture, const Vec<D>& place) {
+    const double beyond = radius - distance_from(fixture, place);
+    if (!(beyond > deepest)) return;
+    deepest = beyond;
+    const auto nearest = std::ranges::min_element(
+        fixture.pieces, {}, [&](const Piece<D>& piece) { return piece.distance(place); });
+    Vec<D> away = place - nearest->foot(place);
+    const double length = away.norm();
+    away = length > 0.0 ? Vec<D>(away / length)
+                        : nearest->is_plate() ? nearest->normal : Vec<D>(Vec<D>::Unit(0));
+    const bool inside = beyond > radius && fixture.solid;
+    way = beyond * (inside ? -away : away);
+  });
+  return way;
+}
+
+template double distance_from(const Fixture<2>&, const Vec2&);
+template double distance_from(const Fixture<3>&, const Vec<3>&);
+template class FixtureImages<2>;
+template class FixtureImages<3>;
+
+}  // namespace clatter

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/laws/domain.h"
+#include "engine/laws/wall.h"
+#include "engine/physics/piece.h"
+#include "engine/vec.h"
+
+namespace clatter {
+
+/// A body at rest in the box: an obstacle or a partition.
+template <int D>
+struct Fixture {
+  std::string name;                ///< for results and messages
+  std::vector<Piece<D>> pieces;    ///< all that particles touch
+  bool solid = false;              ///< whether its plates enclose a room
+  std::optional<Vec<D>> centre;    ///< about which torques are; absent: none
+  Wall law;                        ///< static, driven or thermal
+  std::vector<Wall> of_species;    ///< [S] the law for each species; empty: all have `law`
+  std::vector<bool> passes;        ///< [S] whether a species does not see it; empty: all see it
+
+  /// The law for a species, by its number.
+  const Wall& law_for(std::uint32_t species) const {
+    return of_species.empty() ? law : of_species[species];
+  }
+  /// Whether a species does not see it.
+  bool lets_pass(std::uint32_t species) const { return !passes.empty() && passes[species]; }
+};
+
+/// Distance of a position from the surface of a fixture, negative inside.
+template <int D>
+double distance_from(const Fixture<D>& fixture, const Vec<D>& position);
+
+/// The fixtures of a gas, with all periodic images that reach into the box.
+template <int D>
+class FixtureImages {
+ public:
+  /// `origin` is the place in the box of positions that are 0.
+  explicit FixtureImages(const std::vector<Fixture<D>>& fixtures = {}, const Domain<D>& domain = {},
+                         const Vec<D>& origin = Vec<D>::Zero());
+
+  /// Whether there are any.
+  bool any() const { return !images_.empty(); }
+  /// Depth by which a particle at a position in the box overlaps a fixture that its species sees; 0:
+  /// none.
+  double depth(const Vec<D>& position, double radius, std::uint32_t species) const;
+  /// The way by which such a particle leaves the fixture that it overlaps most; 0: none.
+  Vec<D> way_out(const Vec<D>& position, double radius, std::uint32_t species) const;
+
+ private:
+  struct Image {
+    std::size_t fixture;
+    Vec<D> shift;  // added to positions
+    Vec<D> low, high;  // bounds, in the frame of the positions
+  };
+  template <class Visit>
+  void visit_near(const Vec<D>& position, double radius, std::uint32_t species,
+                  const Visit& visit) const;
+
+  std::vector<Fixture<D>> fixtures_;
+  std::vector<Image> images_;
+};
+
+extern template class FixtureImages<2>;
+extern template class FixtureImages<3>;
+
+}  // namespace clatter

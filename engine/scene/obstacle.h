@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/laws/wall.h"
+#include "engine/scene/species.h"
+#include "engine/vec.h"
+
+namespace clatter {
+
+/// How particles leave a fixture. It is static; with a drive speed it is driven, and with a
+/// temperature thermal.
+struct FixtureLaw {
+  SpeciesWall of_all;                    ///< absent members: elastic, smooth, at rest
+  std::vector<SpeciesWall> of_species;   ///< [S] differences of each species
+
+  /// The law for all species.
+  Wall wall() const;
+  /// The law for one species, by its number.
+  Wall wall(std::size_t species) const;
+
+  bool operator==(const FixtureLaw&) const = default;
+};
+
+/// Shape of an obstacle.
+enum class ObstacleKind { Ball, Polygon, Box };
+
+/// A body at rest in the box.
+struct Obstacle {
+  std::optional<std::string> name;    ///< absent: "obstacle_1" and so on, see obstacle_name()
+  ObstacleKind kind = ObstacleKind::Ball;
+  VecX centre = Vec2::Zero();         ///< of a ball
+  double radius = 1.0;                ///< of a ball, > 0
+  std::vector<Vec2> corners;          ///< of a polygon in 2D, in order around it
+  VecX from = Vec2::Zero();           ///< lowest corner of a box
+  VecX to = Vec2::Zero();             ///< highest corner of a box
+  FixtureLaw law;
+
+  bool operator==(const Obstacle&) const = default;
+};
+
+/// An opening of a partition: an interval, or a rectangle in 3D, along the other axes in order.
+struct Hole {
+  VecX from = VecX::Zero(1);
+  VecX to = VecX::Zero(1);
+
+  bool operator==(const Hole&) const = default;
+};
+
+/// A thin wall across the box, at right angles to an axis.
+struct Partition {
+  std::optional<std::string> name;  ///< absent: "partition_1" and so on
+  Axis axis = Axis::X;
+  double position = 0.0;            ///< along the axis
+  std::vector<Hole> holes;          ///< apart from each other; none: closed
+  std::vector<std::string> passes;  ///< names of species that do not see it
+  FixtureLaw law;
+
+  bool operator==(const Partition&) const = default;
+};
+
+/// The name of an obstacle in results and messages, by its place in the list.
+std::string obstacle_name(const Obstacle& obstacle, std::size_t number);
+/// The same of a partition.
+std::string partition_name(const Partition& partition, std::size_t number);
+
+}  // namespace clatter

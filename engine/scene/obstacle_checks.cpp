@@ -1,0 +1,232 @@
+#include "engine/scene/obstacle_checks.h"
+
+#include <algorithm>
+#include <set>
+
+#include "engine/dimension.h"
+#include "engine/error.h"
+#include "engine/laws/fixture.h"
+#include "engine/scene/enum_names.h"
+#include "engine/scene/scene_document.h"
+#include "engine/text.h"
+
+namespace clatter {
+
+namespace {
+
+/// Places of the keys of one item of a list.
+class Item {
+ public:
+  Item(const toml::table& root, const char* list, std::size_t number, const std::string& file)
+      : node_(*root[list][number].node()), file_(file) {}
+
+  Place place(std::string_view key) const {
+    const Place found = place_of(*node_.as_table(), key, file_);
+    return found.line > 0 || from_override(found) ? found : place_of(node_, file_);
+  }
+  [[noreturn]] void refuse(std::string_view key, const std::string& problem,
+                           const std::string& advice) const {
+    throw UserError(place(key), problem, advice);
+  }
+
+ private:
+  const toml::node& node_;
+  const std::string& file_;
+};
+
+std::string point_text(const VecX& point) {
+  std::string text;
+  for (const double number : point) text += (text.empty() ? "(" : ", ") + number_text(number);
+  return text + ')';
+}
+
+/// Throws if a body reaches no point of the box.
+void check_reach(const Scene& scene, const Item& item, const char* key, const VecX& low,
+                 const VecX& high) {
+  for (int axis = 0; axis < scene.dimension(); ++axis) {
+    if (low[axis] < scene.box[axis] && high[axis] > 0.0) continue;
+    item.refuse(key,
+                "the obstacle is outside of the box: along " +
+                    std::string(kAxes[static_cast<std::size_t>(axis)].name) + " it reaches from " +
+                    number_text(low[axis]) + " to " + number_text(high[axis]),
+                "place it between 0 and " + number_text(scene.box[axis]));
+  }
+}
+
+double wedge(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+// Whether two segments have a point in common.
+bool meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const auto side = [](const Vec2& p, const Vec2& q, const Vec2& r) {
+    const double area = wedge(q - p, r - p);
+    return area > 0.0 ? 1 : area < 0.0 ? -1 : 0;
+  };
+  const auto on = [](const Vec2& p, const Vec2& q, const Vec2& r) {
+    return (r - p).dot(r - q) <= 0.0;
+  };
+  const int abc = side(a, b, c), abd = side(a, b, d), cda = side(c, d, a), cdb = side(c, d, b);
+  if (abc != abd && cda != cdb && abc * abd <= 0 && cda * cdb <= 0) return true;
+  return (abc == 0 && on(a, b, c)) || (abd == 0 && on(a, b, d)) || (cda == 0 && on(c, d, a)) ||
+         (cdb == 0 && on(c, d, b));
+}
+
+void check_polygon(const std::vector<Vec2>& corners, const Item& item) {
+  constexpr std::size_t kMostCorners = 500;
+  const std::size_t count = corners.size();
+  if (count < 3 || count > kMostCorners) {
+    item.refuse("corners", "a polygon of " + counted(count, "corner") + " is none",
+                "give 3 to " + std::to_string(kMostCorners) + " corners");
+  }
+  const auto at = [&](std::size_t k) { return corners[k % count]; };
+  for (std::size_t i = 0; i < count; ++i) {
+    if (at(i) == at(i + 1)) {
+      item.refuse("corners", "the corner " + point_text(at(i)) + " comes twice in succession",
+                  "remove one of the two");
+    }
+    // An edge must not turn back into the one before.
+    const Vec2 before = at(i + 1) - at(i), after = at(i + 2) - at(i + 1);
+    if (wedge(before, after) == 0.0 && before.dot(after) < 0.0) {
+      item.refuse("corners", "the polygon turns back on itself at " + point_text(at(i + 1)),
+                  "give its corners in order around it");
+    }
+    for (std::size_t j = i + 2; j < count; ++j) {
+      if (i == 0 && j == count - 1) continue;
+      if (!meet(at(i), at(i + 1), at(j), at(j + 1))) continue;
+      item.refuse("corners",
+                  "the edges from " + point_text(at(i)) + " and from " + point_text(at(j)) + " meet",
+                  "give the corners in order around the polygon");
+    }
+  }
+}
+
+void check_obstacle(const Scene& scene, const Obstacle& obstacle, const Item& item) {
+  switch (obstacle.kind) {
+    case ObstacleKind::Ball: {
+      const VecX reach = VecX::Constant(scene.dimension(), obstacle.radius);
+      check_reach(scene, item, "centre", obstacle.centre - reach, obstacle.centre + reach);
+      for (int axis = 0; axis < scene.dimension(); ++axis) {
+        if (!scene.periodic(axis) || 2.0 * obstacle.radius < scene.box[axis]) continue;
+        item.refuse("radius", "the ball touches its own image along a periodic axis",
+                    "choose a radius below " + number_text(0.5 * scene.box[axis]));
+      }
+      break;
+    }
+    case ObstacleKind::Polygon: {
+      if (scene.dimension() == 3) {
+        item.refuse("kind", "a polygon has no meaning among spheres",
+                    "choose \"ball\" or \"box\"");
+      }
+      check_polygon(obstacle.corners, item);
+      Vec2 low = obstacle.corners.front(), high = low;
+      for (const Vec2& corner : obstacle.corners) {
+        low = low.cwiseMin(corner);
+        high = high.cwiseMax(corner);
+      }
+      check_reach(scene, item, "corners", low, high);
+      break;
+    }
+    case ObstacleKind::Box:
+      for (int axis = 0; axis < scene.dimension(); ++axis) {
+        if (obstacle.from[axis] < obstacle.to[axis]) continue;
+        item.refuse("to",
+                    "the box ends at " + number_text(obstacle.to[axis]) +
+                        ", where it does not begin below",
+                    "make each number of 'to' larger than that of 'from'");
+      }
+      check_reach(scene, item, "from", obstacle.from, obstacle.to);
+      break;
+  }
+}
+
+void check_partition(const Scene& scene, const Partition& partition, const Item& item) {
+  const int across = static_cast<int>(partition.axis);
+  if (across >= scene.dimension()) {
+    item.refuse("axis", "the box has no z axis", "choose x or y");
+  }
+  if (!(partition.position > 0.0 && partition.position < scene.box[across])) {
+    item.refuse("position", "the partition is not inside the box",
+                "place it between 0 and " + number_text(scene.box[across]));
+  }
+  for (std::size_t i = 0; i < partition.holes.size(); ++i) {
+    const Hole& hole = partition.holes[i];
+    for (int axis = 0, k = 0; axis < scene.dimension(); ++axis) {
+      if (axis == across) continue;
+      const double from = hole.from[k], to = hole.to[k], side = scene.box[axis];
+      if (!(from < to && to <= side)) {
+        item.refuse("holes",
+                    "a hole from " + number_text(from) + " to " + number_text(to) +
+                        " is not between 0 and " + number_text(side),
+                    "let it begin below its end, and end inside the box");
+      }
+      const bool at_face = from == 0.0 || to == side;
+      if (scene.periodic(axis) && at_face && to - from < side) {
+        item.refuse("holes", "a hole touches the periodic border of the box",
+                    "move it inside, or let it reach from 0 to " + number_text(side));
+      }
+      ++k;
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      const Hole& other = partition.holes[j];
+      bool apart = false;
+      for (int k = 0; k < scene.dimension() - 1; ++k) {
+        apart = apart || hole.from[k] > other.to[k] || other.from[k] > hole.to[k];
+      }
+      if (!apart) {
+        item.refuse("holes", "two holes of the partition meet", "make one hole of the two");
+      }
+    }
+  }
+  for (const std::string& name : partition.passes) {
+    if (!find_species(scene.species, name)) {
+      refuse_species(item.place("passes"), name, names_of(scene.species));
+    }
+  }
+}
+
+}  // namespace
+
+void check_fixtures(const Scene& scene, const toml::table& root, const std::string& file) {
+  constexpr std::size_t kMostFixtures = 2000;
+  std::set<std::string> names;
+  const auto check_name = [&](const std::optional<std::string>& given, const std::string& name,
+                              const Item& item) {
+    if (given && !is_species_name(*given)) {
+      item.refuse("name", in_quotes(*given) + " cannot be a name",
+                  "use up to 40 letters, digits, _ and -, without \"error\" as the last word");
+    }
+    if (!names.insert(name).second) {
+      item.refuse("name", "a second fixture has the name " + in_quotes(name),
+                  "give each a name of its own");
+    }
+    if (names.size() > kMostFixtures) {
+      item.refuse("name", "there are more than " + std::to_string(kMostFixtures) + " fixtures",
+                  "give fewer, for instance by polygons of several corners");
+    }
+  };
+  for (std::size_t k = 0; k < scene.obstacles.size(); ++k) {
+    const Item item(root, "obstacle", k, file);
+    check_name(scene.obstacles[k].name, obstacle_name(scene.obstacles[k], k), item);
+    check_obstacle(scene, scene.obstacles[k], item);
+  }
+  for (std::size_t k = 0; k < scene.partitions.size(); ++k) {
+    const Item item(root, "partition", k, file);
+    check_name(scene.partitions[k].name, partition_name(scene.partitions[k], k), item);
+    check_partition(scene, scene.partitions[k], item);
+  }
+  if (!scene.has_fixtures()) return;
+  constexpr std::size_t kMostPieces = 60'000;
+  const std::size_t pieces = with_dimension(scene.dimension(), [&](auto dimension) {
+    std::size_t sum = 0;
+    for (const auto& fixture : fixtures_of<dimension>(scene)) sum += fixture.pieces.size();
+    return sum;
+  });
+  if (pieces > kMostPieces) {
+    throw UserError(place_of(root, scene.obstacles.empty() ? "partition" : "obstacle", file),
+                    "the fixtures have " + std::to_string(pieces) + " edges and corners",
+                    "give fewer of them: at most " + std::to_string(kMostPieces));
+  }
+}
+
+}  // namespace clatter
