@@ -50,7 +50,13 @@ bool Reference<D>::step() {
       kick();
     } else {
       now_ = std::max(now_, next.event.time);
-      next.event.partner < kWall ? collide(next) : hit_wall(next.event);
+      if (next.event.partner < kPiece) {
+        collide(next);
+      } else if (next.event.partner < kWall) {
+        hit_fixture(next);
+      } else {
+        hit_wall(next.event);
+      }
     }
     if (moves_.after(particle_particle_ + particle_wall_ + kicks_)) move_base();
     return true;
@@ -65,6 +71,7 @@ typename Reference<D>::Next Reference<D>::first_before(double horizon) const {
   for (std::uint32_t i = 0; i < count; ++i) {
     for (std::uint32_t j = i + 1; j < count; ++j) weigh_pair(i, j, horizon, first);
     weigh_walls(i, first);
+    weigh_fixtures(i, horizon, first);
   }
   return first;
 }
@@ -104,6 +111,63 @@ void Reference<D>::weigh_walls(std::uint32_t i, Next& first) const {
     const Event event{time, i, kWall + static_cast<std::uint32_t>(side)};
     if (time < kNever && before(event, first.event)) first = {event, IntVec<D>::Zero()};
   }
+}
+
+// All images of all pieces that the particle can reach before the horizon.
+template <int D>
+void Reference<D>::weigh_fixtures(std::uint32_t i, double horizon, Next& first) const {
+  const double span = horizon - now_;
+  const Vec<D> r = flights_[i].at(now_, model_.gravity);
+  const Vec<D> v = flights_[i].velocity_at(now_, model_.gravity);
+  std::uint32_t number = 0;
+  for (const Fixture<D>& fixture : model_.fixtures) {
+    for (const Piece<D>& piece : fixture.pieces) {
+      const std::uint32_t partner = kPiece + number++;
+      if (fixture.lets_pass(grain(i).species)) continue;
+      IntVec<D> from = IntVec<D>::Zero(), to = IntVec<D>::Zero();
+      for (int axis = 0; axis < D; ++axis) {
+        if (!model_.periodic(axis)) continue;
+        const double reach = std::fabs(v[axis]) * span +
+                             0.5 * std::fabs(model_.gravity[axis]) * span * span +
+                             2.0 * model_.box[axis];
+        from[axis] = static_cast<int>(std::floor((-r[axis] - reach) / model_.box[axis])) - 1;
+        to[axis] = static_cast<int>(std::ceil((-r[axis] + reach) / model_.box[axis])) + 1;
+      }
+      IntVec<D> image = from;
+      while (image[0] <= to[0]) {
+        const Vec<D> shift = image.template cast<double>().cwiseProduct(model_.box);
+        const Event event{piece_contact_time<D>(piece, flights_[i], shift, grain(i).radius,
+                                                model_.gravity),
+                          i, partner};
+        if (event.time < kNever && before(event, first.event)) first = {event, image};
+        for (int axis = D - 1; ++image[axis] > to[axis] && axis > 0; --axis) {
+          image[axis] = from[axis];
+        }
+      }
+    }
+  }
+}
+
+template <int D>
+void Reference<D>::hit_fixture(const Next& next) {
+  const std::uint32_t i = next.event.particle;
+  std::uint32_t number = next.event.partner - kPiece;
+  auto fixture = model_.fixtures.begin();
+  for (; number >= fixture->pieces.size(); ++fixture) {
+    number -= static_cast<std::uint32_t>(fixture->pieces.size());
+  }
+  const Piece<D>& piece = fixture->pieces[number];
+  Vec<D> r = flights_[i].at(now_, model_.gravity);
+  const Vec<D> place = r + next.image.template cast<double>().cwiseProduct(model_.box);
+  const Vec<D> normal = piece.normal_at(place);
+  r += (grain(i).radius - piece.distance(place)) * normal;
+  const Departure<D> departure = wall_outcome<D>(
+      model_, fixture->law_for(grain(i).species), normal, {},
+      {flights_[i].velocity_at(now_, model_.gravity), spin(i), i, flights_[i].number, grain(i)},
+      within_contact_time(i));
+  renew(i, r, departure.velocity, departure.spin);
+  last_collisions_[i] = now_;
+  ++particle_wall_;
 }
 
 template <int D>

@@ -33,8 +33,8 @@ class BaseMoves : public Observer<D> {
   std::set<std::uint64_t> events_;
 };
 
-/// A brute-force version of Simulation. Before every event it tests all pairs, all images and all
-/// walls, and takes the earliest event. It has no cells, no queue and no memory between events. It
+/// A brute-force version of Simulation. Before every event it tests all pairs, all images, all
+/// walls and all pieces of fixtures, and takes the earliest event. It has no cells, no queue and no memory between events. It
 /// uses the same functions of physics/ for contacts and collisions, and the moves of the base of
 /// the simulation. Equal runs are equal to the last bit.
 template <int D>
@@ -62,11 +62,13 @@ class Reference {
   Next first_before(double horizon) const;
   void weigh_pair(std::uint32_t i, std::uint32_t j, double horizon, Next& first) const;
   void weigh_walls(std::uint32_t i, Next& first) const;
+  void weigh_fixtures(std::uint32_t i, double horizon, Next& first) const;
   bool step();
   double next_kick() const;
   void kick();
   void collide(const Next& next);
   void hit_wall(const Event& event);
+  void hit_fixture(const Next& next);
   bool within_contact_time(std::uint32_t i) const;
   Spin<D> spin(std::uint32_t i) const;
   Grain grain(std::uint32_t i) const { return grains_.empty() ? model_.grain() : grains_[i]; }
