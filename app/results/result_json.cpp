@@ -72,6 +72,13 @@ std::vector<std::pair<std::string, Estimate>> estimates_of(const Measured& measu
       add(place + "hits" + (species.empty() ? "" : '.' + species), rate);
     }
   }
+  if (const auto& compartments = measured.compartments) {
+    add("compartments.count_left", compartments->count_left);
+    add("compartments.share_left", compartments->share_left);
+    add("compartments.imbalance", compartments->imbalance);
+    add("compartments.temperature_left", compartments->temperature_left);
+    add("compartments.temperature_right", compartments->temperature_right);
+  }
   for (const ObservableResult& observable : measured.observables) {
     for (const auto& [name, mean] : observable.means) add(name, mean);
   }
@@ -187,6 +194,9 @@ Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<D>& si
     json["temperature_series"]["spin"] = measured.series.spin_temperature;
   json["theory"] = theory_json(scene);
   if (measured.profile) json["profile"] = profile_json(*measured.profile);
+  if (measured.compartments) {
+    json["compartments"]["share_left_series"] = measured.compartments->share_left_series;
+  }
   for (const ResultTable& table : measured.tables()) add_table(json, table);
   if (measured.residuals) json["balance"] = balance_json(*measured.residuals);
   json["checks"] = {{"deepest_overlap", simulation.checks().deepest_overlap},

@@ -17,7 +17,9 @@ std::array<WallMotion, 2 * D> wall_motions(const Model<D>& model) {
 
 template <int D>
 bool keeps_flights(const Model<D>& before, const Model<D>& after) {
-  return before.gravity == after.gravity && wall_motions<D>(before) == wall_motions<D>(after);
+  const auto same = [](const Fixture<D>& a, const Fixture<D>& b) { return a.has_shape_of(b); };
+  return before.gravity == after.gravity && wall_motions<D>(before) == wall_motions<D>(after) &&
+         std::ranges::equal(before.fixtures, after.fixtures, same);
 }
 
 template <int D>

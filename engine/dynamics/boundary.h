@@ -22,11 +22,12 @@ namespace clatter {
 template <int D>
 std::array<WallMotion, 2 * D> wall_motions(const Model<D>& model);
 
-/// Whether flights continue under other laws: gravity and the motions of all walls are the same.
+/// Whether flights continue under other laws: gravity, the motions of all walls and the shapes of all
+/// fixtures are the same.
 template <int D>
 bool keeps_flights(const Model<D>& before, const Model<D>& after);
 
-/// The same for the flights of a saved run.
+/// The same for the flights of a saved run, whose plans are made anew. Fixtures may differ.
 template <int D>
 bool keeps_flights(const RunState<D>& saved, const Model<D>& after);
 

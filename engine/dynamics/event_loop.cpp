@@ -122,6 +122,7 @@ void EventLoop<D>::set_laws(bool keeps_flights, const Vec<D>& gravity, double st
   set_alike();
   prediction_.set_laws();
   if (keeps_flights) return;
+  near_.set_fixtures(model_);
   for (std::size_t i = 0; i < gas_.particles.size(); ++i) {
     Flight<D>& flight = gas_.particles.flight(i);
     flight = {flight.at(now_, gravity), flight.velocity_at(now_, gravity), now_, flight.number};
@@ -168,6 +169,7 @@ void EventLoop<D>::load(const ParticleStates<D>& gas, const GrainArray& grains,
   gas_.fit(model_, count);
   plans_.resize(count);
   near_.reset(subdomain, sizes, static_cast<double>(count));
+  if (near_.has_pieces()) near_.set_fixtures(model_);
   std::vector<IntVec<D>> cells(count);
   for (std::size_t k = 0; k < count; ++k) {
     Vec<D> home;
@@ -478,6 +480,20 @@ double EventLoop<D>::deepest_overlap_with(const Boundary<D>& boundary) const {
     deepest = std::max(deepest, overlap_with_walls(boundary, i, place));
   }
   return deepest;
+}
+
+template <int D>
+std::optional<std::pair<std::uint32_t, std::size_t>> EventLoop<D>::overlapping(
+    const FixtureImages<D>& fixtures, double bearable) const {
+  for (std::uint32_t i = 0; i < gas_.particles.size(); ++i) {
+    const Vec<D> place =
+        model_.domain().wrapped(gas_.particles[i].flight.at(now_, model_.gravity));
+    const double depth = fixtures.depth(place, grain(i).radius, grain(i).species);
+    if (depth > bearable * model_.diameter) {
+      return std::pair(i, *fixtures.deepest(place, grain(i).radius, grain(i).species));
+    }
+  }
+  return std::nullopt;
 }
 
 // Prefetches data of coming events in stages. A small gas fetches the plans of the next bucket

@@ -102,6 +102,11 @@ class Neighbourhood {
     return changed;
   }
 
+  /// Takes the changed fixtures of a model.
+  void set_fixtures(const Model<D>& model) {
+    pieces_ = PieceLists<D>(model);
+    pieces_.lay(grid_);
+  }
   /// Whether there are fixtures.
   bool has_pieces() const { return pieces_.any(); }
   /// The pieces of fixtures that a particle in a cell may touch.

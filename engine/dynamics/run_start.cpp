@@ -86,6 +86,14 @@ PhysicalStop overlap_at_start(const Model<D>& model, const RunState<D>& saved, d
 }
 
 template <int D>
+PhysicalStop fixture_in_particle(const Model<D>& model, std::size_t fixture,
+                                 std::uint32_t particle, double time) {
+  return PhysicalStop(fmt::format(
+      "the change at t = {:.9g} puts {} where particle {} is; choose another place or time", time,
+      model.fixtures[fixture].name, particle));
+}
+
+template <int D>
 void restart_changed_flights(const Model<D>& model, RunState<D>& saved) {
   if (keeps_flights<D>(saved, model)) return;
   for (Flight<D>& flight : saved.flights) {
@@ -100,6 +108,8 @@ template std::array<double, 4> phase_shifts(const Model<2>&, const RunState<2>&)
 template std::array<double, 6> phase_shifts(const Model<3>&, const RunState<3>&);
 template void restart_changed_flights(const Model<2>&, RunState<2>&);
 template void restart_changed_flights(const Model<3>&, RunState<3>&);
+template PhysicalStop fixture_in_particle(const Model<2>&, std::size_t, std::uint32_t, double);
+template PhysicalStop fixture_in_particle(const Model<3>&, std::size_t, std::uint32_t, double);
 template PhysicalStop overlap_at_start(const Model<2>&, const RunState<2>&, double);
 template PhysicalStop overlap_at_start(const Model<3>&, const RunState<3>&, double);
 

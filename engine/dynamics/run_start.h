@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 
 #include "engine/dynamics/run_state.h"
 #include "engine/error.h"
@@ -28,5 +30,10 @@ void restart_changed_flights(const Model<D>& model, RunState<D>& saved);
 /// changed their motion, they are the cause.
 template <int D>
 PhysicalStop overlap_at_start(const Model<D>& model, const RunState<D>& saved, double overlap);
+
+/// The error of a change that puts a fixture, by its number in the model, where a particle is.
+template <int D>
+PhysicalStop fixture_in_particle(const Model<D>& model, std::size_t fixture,
+                                 std::uint32_t particle, double time);
 
 }  // namespace clatter

@@ -75,6 +75,12 @@ void Simulation<D>::set_laws(const Model<D>& model) {
   if (!goes_on) {
     const double overlap = loop_.deepest_overlap_with(boundary);
     if (overlap > bearable_overlap()) throw overlap_at_start<D>(next, present, overlap);
+    const FixtureImages<D> fixtures(next.fixtures, next.domain());
+    if (fixtures.any()) {
+      if (const auto met = loop_.overlapping(fixtures, bearable_overlap())) {
+        throw fixture_in_particle<D>(next, met->second, met->first, time());
+      }
+    }
   }
   loop_.for_observers([&](Observer<D>& observer) { observer.before_laws(next); });
   model_ = next;

@@ -64,16 +64,29 @@ void FixtureImages<D>::visit_near(const Vec<D>& position, double radius, std::ui
     const bool far = ((position - low).array() < -radius).any() ||
                      ((position - high).array() > radius).any();
     if (far || fixtures_[number].lets_pass(species)) continue;
-    visit(fixtures_[number], Vec<D>(position + shift));
+    visit(number, Vec<D>(position + shift));
   }
+}
+
+template <int D>
+std::optional<std::size_t> FixtureImages<D>::deepest(const Vec<D>& position, double radius,
+                                                     std::uint32_t species) const {
+  double deepest = 0.0;
+  std::optional<std::size_t> number;
+  visit_near(position, radius, species, [&](std::size_t fixture, const Vec<D>& place) {
+    const double beyond = radius - distance_from(fixtures_[fixture], place);
+    if (beyond > deepest) number = fixture;
+    deepest = std::max(deepest, beyond);
+  });
+  return number;
 }
 
 template <int D>
 double FixtureImages<D>::depth(const Vec<D>& position, double radius,
                                std::uint32_t species) const {
   double deepest = 0.0;
-  visit_near(position, radius, species, [&](const Fixture<D>& fixture, const Vec<D>& place) {
-    deepest = std::max(deepest, radius - distance_from(fixture, place));
+  visit_near(position, radius, species, [&](std::size_t fixture, const Vec<D>& place) {
+    deepest = std::max(deepest, radius - distance_from(fixtures_[fixture], place));
   });
   return deepest;
 }
@@ -83,7 +96,8 @@ Vec<D> FixtureImages<D>::way_out(const Vec<D>& position, double radius,
                                  std::uint32_t species) const {
   double deepest = 0.0;
   Vec<D> way = Vec<D>::Zero();
-  visit_near(position, radius, species, [&](const Fixture<D>& fixture, const Vec<D>& place) {
+  visit_near(position, radius, species, [&](std::size_t number, const Vec<D>& place) {
+    const Fixture<D>& fixture = fixtures_[number];
     const double beyond = radius - distance_from(fixture, place);
     if (!(beyond > deepest)) return;
     deepest = beyond;

@@ -13,6 +13,12 @@
 
 namespace clatter {
 
+/// A plane at right angles to an axis.
+struct AxisPlane {
+  int axis = 0;
+  double position = 0.0;
+};
+
 /// A body at rest in the box: an obstacle or a partition.
 template <int D>
 struct Fixture {
@@ -20,6 +26,7 @@ struct Fixture {
   std::vector<Piece<D>> pieces;    ///< all that particles touch
   bool solid = false;              ///< whether its plates enclose a room
   std::optional<Vec<D>> centre;    ///< about which torques are; absent: none
+  std::optional<AxisPlane> plane;  ///< of a partition
   Wall law;                        ///< static, driven or thermal
   std::vector<Wall> of_species;    ///< [S] the law for each species; empty: all have `law`
   std::vector<bool> passes;        ///< [S] whether a species does not see it; empty: all see it
@@ -27,6 +34,10 @@ struct Fixture {
   /// The law for a species, by its number.
   const Wall& law_for(std::uint32_t species) const {
     return of_species.empty() ? law : of_species[species];
+  }
+  /// Whether particles touch this one and another at the same places.
+  bool has_shape_of(const Fixture& other) const {
+    return pieces == other.pieces && passes == other.passes;
   }
   /// Whether a species does not see it.
   bool lets_pass(std::uint32_t species) const { return !passes.empty() && passes[species]; }
@@ -46,6 +57,9 @@ class FixtureImages {
 
   /// Whether there are any.
   bool any() const { return !images_.empty(); }
+  /// The number of the fixture that a particle at a position in the box overlaps most; absent: none.
+  std::optional<std::size_t> deepest(const Vec<D>& position, double radius,
+                                     std::uint32_t species) const;
   /// Depth by which a particle at a position in the box overlaps a fixture that its species sees; 0:
   /// none.
   double depth(const Vec<D>& position, double radius, std::uint32_t species) const;

@@ -209,6 +209,7 @@ template <int D>
 template <class Archive>
 void Measurement<D>::visit_series(Archive& io) {
   io(totals_, series_start_, series_);
+  if (compartment_plane(simulation_.model())) io(compartments_);
   fit_series();
 }
 
@@ -224,8 +225,8 @@ template <class Archive>
 void Measurement<D>::visit_averages(Archive& io) {
   auto& [simulation, measure, end, balanced, fields, totals, species, fixtures, cells, balance, series_start,
          averages_start, window, started, counts_at_start, windows, species_windows,
-         fixture_windows, columns, parts, residuals, samples, series, observables, go_on, particles,
-         own, of_totals, of_species, of_fixtures, of_cells, of_balance, timers] = *this;
+         fixture_windows, columns, parts, residuals, samples, series, compartments, observables, go_on,
+         particles, own, of_totals, of_species, of_fixtures, of_cells, of_balance, timers] = *this;
   io(averages_start, window, started, counts_at_start, windows, columns, parts, residuals, samples);
   if (simulation.model().species) io(species_windows);
   if (!simulation.model().fixtures.empty()) io(fixture_windows);
@@ -270,6 +271,9 @@ void Measurement<D>::sample(double time) {
   series_.temperature.push_back(per_component(simulation_.kinetic_energy(), D));
   if (!simulation_.spins().empty()) {
     series_.spin_temperature.push_back(per_component(simulation_.spin_energy(), kSpinSize<D>));
+  }
+  if (const auto plane = compartment_plane(simulation_.model())) {
+    compartments_.sample(simulation_, *plane);
   }
 }
 
@@ -464,6 +468,11 @@ Measured Measurement<D>::means() const {
   if (!model.fixtures.empty()) {
     measured.walls_in = estimate([](const auto& w) { return w.walls_in / w.duration; });
     measured.fixtures = fixture_means<D>(fixture_windows_, model);
+    const auto first = static_cast<std::size_t>(
+        std::ranges::lower_bound(series_.times, averages_start_) - series_.times.begin());
+    if (first < compartments_.share_left.size()) {
+      measured.compartments = compartment_means(compartments_, first, count);
+    }
   }
   if (model.is_periodic() && model.fixtures.empty() && count >= 2.0) {
     // The total momentum is conserved, so D(N - 1) degrees of freedom carry the temperature.

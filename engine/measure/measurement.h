@@ -8,6 +8,7 @@
 #include "engine/dynamics/simulation.h"
 #include "engine/measure/balance.h"
 #include "engine/measure/cell_integrals.h"
+#include "engine/measure/compartments.h"
 #include "engine/measure/field_maps.h"
 #include "engine/measure/fixture_totals.h"
 #include "engine/measure/profile.h"
@@ -67,6 +68,7 @@ struct Measured {
   std::vector<SpeciesMeans> species;        ///< [S] of a mixture; empty: the particles are alike
   std::vector<PairMeans> pairs;             ///< of the pairs of species of a mixture
   std::vector<FixtureMeans> fixtures;       ///< of the obstacles, then of the partitions
+  std::optional<CompartmentMeans> compartments;  ///< if a partition divides the gas
   std::optional<Profile> profile;           ///< if averaged fields are requested
   std::optional<Residuals> residuals;       ///< if residuals are requested
   std::optional<FieldMaps> maps;            ///< of all requested fields, over `duration`
@@ -170,6 +172,7 @@ class Measurement final : private Observer<D> {
   Residuals residuals_;
   std::uint64_t samples_ = 0;  // samples of the snapshot estimator so far
   TemperatureSeries series_;
+  CompartmentSeries compartments_;  // at the times of series_; empty: one compartment
   std::optional<Observables<D>> observables_;
   bool go_on_ = true;      // whether the averages continue under the next laws
   std::size_t particles_;  // number of them under the present laws

@@ -22,6 +22,15 @@ double Piece<D>::distance(const Vec<D>& position) const {
 }
 
 template <int D>
+bool Piece<D>::operator==(const Piece& other) const {
+  bool same = corner == other.corner && rank == other.rank && radius == other.radius;
+  for (int k = 0; same && k < rank; ++k) {
+    same = directions[k] == other.directions[k] && lengths[k] == other.lengths[k];
+  }
+  return same;
+}
+
+template <int D>
 Vec<D> Piece<D>::normal_at(const Vec<D>& position) const {
   if (is_plate()) return normal.dot(position - corner) < 0.0 ? Vec<D>(-normal) : normal;
   return (position - foot(position)).normalized();

@@ -32,6 +32,7 @@ struct Piece {
   double distance(const Vec<D>& position) const;
   /// Its lowest and highest coordinates.
   std::pair<Vec<D>, Vec<D>> bounds() const;
+  bool operator==(const Piece& other) const;
   /// Unit vector at the contact with a particle, from the piece to the centre.
   Vec<D> normal_at(const Vec<D>& position) const;
 };

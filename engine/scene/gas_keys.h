@@ -108,6 +108,8 @@ inline constexpr auto kFixtureKeys = key_table(
     kRunCommands,
     {{"name", "",
       "Name in results, of letters, digits, `_` and `-`. Without a value the kind and a number."},
+     {"present", "",
+      "Whether it is there. A change to false removes it during a run."},
      {"restitution", "1", "Ratio of the normal velocities after and before a bounce."},
      {"drive_speed", "a/t",
       "Gain in normal velocity at each bounce. Without a value the surface is at rest."},
@@ -170,6 +172,7 @@ void visit_obstacle(Visitor& io, Obstacle& obstacle, int dimension,
   io.value(kObstacleKeys.at("corners"), obstacle.corners, place, of(ObstacleKind::Polygon));
   io.value(kObstacleKeys.at("from"), obstacle.from, place, of(ObstacleKind::Box));
   io.value(kObstacleKeys.at("to"), obstacle.to, place, of(ObstacleKind::Box));
+  io.value(kFixtureKeys.at("present"), obstacle.present);
   visit_fixture_law(io, obstacle.law, species);
 }
 
@@ -191,6 +194,7 @@ void visit_partition(Visitor& io, Partition& partition, int dimension,
   io.choice(kPartitionKeys.at("axis"), partition.axis, kAxes);
   io.value(kPartitionKeys.at("position"), partition.position, between(0.0, kMaxLength), kRequired);
   io.value(kPartitionKeys.at("passes"), partition.passes, between(0, kMaxSpecies));
+  io.value(kFixtureKeys.at("present"), partition.present);
   visit_fixture_law(io, partition.law, species);
   io.list("holes", partition.holes, [&](auto& io, Hole& hole) {
     for (VecX* end : {&hole.from, &hole.to}) {

@@ -110,6 +110,7 @@ Fixture<D> fixture_of(const Scene& scene, const Obstacle& obstacle, std::size_t 
       centre = 0.5 * (obstacle.from + obstacle.to);
       break;
   }
+  if (!obstacle.present) fixture.pieces.clear();
   fixture.solid = obstacle.kind != ObstacleKind::Ball;
   fixture.centre = centre;
   return fixture;
@@ -196,7 +197,8 @@ std::vector<Piece<D>> partition_pieces(const Scene& scene, const Partition& part
 template <int D>
 Fixture<D> fixture_of(const Scene& scene, const Partition& partition, std::size_t number) {
   Fixture<D> fixture = with_law<D>(scene, partition_name(partition, number), partition.law);
-  fixture.pieces = partition_pieces<D>(scene, partition);
+  fixture.plane = {static_cast<int>(partition.axis), partition.position};
+  if (partition.present) fixture.pieces = partition_pieces<D>(scene, partition);
   for (const Species& species : scene.species) {
     fixture.passes.push_back(std::ranges::find(partition.passes, species.name) !=
                              partition.passes.end());

@@ -37,6 +37,7 @@ struct Obstacle {
   std::vector<Vec2> corners;          ///< of a polygon in 2D, in order around it
   VecX from = Vec2::Zero();           ///< lowest corner of a box
   VecX to = Vec2::Zero();             ///< highest corner of a box
+  bool present = true;                ///< false: not there now, until a change
   FixtureLaw law;
 
   bool operator==(const Obstacle&) const = default;
@@ -57,6 +58,7 @@ struct Partition {
   double position = 0.0;            ///< along the axis
   std::vector<Hole> holes;          ///< apart from each other; none: closed
   std::vector<std::string> passes;  ///< names of species that do not see it
+  bool present = true;              ///< false: not there now, until a change
   FixtureLaw law;
 
   bool operator==(const Partition&) const = default;

@@ -140,6 +140,22 @@ static toml::table* pair_table(toml::table& root, std::string_view first, std::s
   return nullptr;
 }
 
+/// Lists of fixtures, whose items have names by their place unless they have their own.
+constexpr std::array<std::string_view, 2> kFixtureLists = {"obstacle", "partition"};
+
+/// The item of a list of fixtures with a name; nullptr without one.
+static toml::table* fixture_table(toml::table& root, std::string_view list, std::string_view name) {
+  toml::array* items = root[list].as_array();
+  if (!items) return nullptr;
+  for (std::size_t k = 0; k < items->size(); ++k) {
+    toml::table* table = (*items)[k].as_table();
+    if (!table) continue;
+    const std::string by_place = std::string(list) + '_' + std::to_string(k + 1);
+    if ((*table)["name"].value_or(std::string_view(by_place)) == name) return table;
+  }
+  return nullptr;
+}
+
 std::vector<std::string> species_names(const toml::table& root) {
   std::vector<std::string> names;
   if (const toml::array* species = root[kSpeciesList].as_array()) {
@@ -173,6 +189,27 @@ static std::vector<std::pair<std::string, toml::table*>> named_tables(toml::tabl
     tables.emplace_back(std::string(name.str()), table);
   }
   return tables;
+}
+
+/// Applies and removes the changes of obstacle.NAME.KEY and partition.NAME.KEY.
+static void replace_in_fixtures(toml::table& root, toml::table& changes, const Place& place) {
+  for (const std::string_view list : kFixtureLists) {
+    toml::table* items = changes[list].as_table();
+    if (!items) continue;
+    for (auto&& [name, node] : *items) {
+      toml::table* values = node.as_table();
+      const std::string path = std::string(list) + ".NAME.KEY";
+      if (!values) throw UserError(place, "the path has no key of a fixture", "write " + path);
+      toml::table* item = fixture_table(root, list, name.str());
+      if (!item) {
+        throw UserError(place, "there is no " + std::string(list) + ' ' + in_quotes(name.str()),
+                        "give the name of one, or " + std::string(list) +
+                            "_1 for the first without a name");
+      }
+      replace(*item, *values);
+    }
+    changes.erase(list);
+  }
 }
 
 /// Applies and removes the changes of species.NAME.KEY and pair.NAME.NAME.KEY.
@@ -215,7 +252,9 @@ static void replace_in_lists(toml::table& root, toml::table& changes, const Plac
 
 void apply_override(toml::table& root, const Override& change) {
   toml::table changes = parse_override(change);
-  replace_in_lists(root, changes, {std::string(kOverrideFile) + change.key});
+  const Place place{std::string(kOverrideFile) + change.key};
+  replace_in_lists(root, changes, place);
+  replace_in_fixtures(root, changes, place);
   toml::table* particles = root["particles"].as_table();
   const toml::table* set = changes["particles"].as_table();
   if (particles && set) remove_rivals(*particles, *set);
@@ -231,6 +270,11 @@ const toml::node* node_at(toml::table& root, std::string_view path) {
   }
   const bool of_species = parts.size() == 3 && parts[0] == kSpeciesList;
   const bool of_pair = parts.size() == 4 && parts[0] == kPairList;
+  if (parts.size() >= 3 && std::ranges::find(kFixtureLists, parts[0]) != kFixtureLists.end()) {
+    toml::table* item = fixture_table(root, parts[0], parts[1]);
+    const std::size_t rest = parts[0].size() + parts[1].size() + 2;
+    return item ? item->at_path(path.substr(rest)).node() : nullptr;
+  }
   if (!of_species && !of_pair) return root.at_path(path).node();
   const toml::table* table =
       of_species ? species_table(root, parts[1]) : pair_table(root, parts[1], parts[2]);

@@ -15,8 +15,9 @@ namespace clatter {
 toml::table parse_document(std::string_view text, const std::string& file);
 
 /// Sets the value of an override in the document. The path species.NAME.KEY is that of a key of a
-/// species, and pair.NAME.NAME.KEY that of a pair, which is added if it is absent. Throws UserError
-/// for a key that cannot be one, and for a species without an item.
+/// species, and pair.NAME.NAME.KEY that of a pair, which is added if it is absent. The paths
+/// obstacle.NAME.KEY and partition.NAME.KEY are those of fixtures. Throws UserError for a key that
+/// cannot be one, and for a name without an item.
 void apply_override(toml::table& root, const Override& change);
 
 /// The value at such a path; nullptr without one.

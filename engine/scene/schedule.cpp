@@ -22,6 +22,9 @@ bool may_change_live(std::string_view key) {
   for (const std::string_view table : {"gravity", "bulk_drive", "collapse"}) {
     if (key.substr(0, key.find('.')) == table) return true;
   }
+  if (key.starts_with("obstacle.") || key.starts_with("partition.")) {
+    return !key.ends_with(".name") && !key.ends_with(".kind") && !key.ends_with(".axis");
+  }
   return key.starts_with("walls.") || (key.starts_with("pair.") && key != "pair.species");
 }
 
@@ -35,7 +38,8 @@ static void require_live(const std::vector<Override>& settings) {
     }
     throw UserError(
         {}, "'" + setting.key + "' cannot change while the gas moves",
-        "change laws only: restitution, friction, walls, gravity, bulk_drive, collapse");
+        "change laws only: restitution, friction, walls, obstacles, partitions, gravity, "
+        "bulk_drive, collapse");
   }
 }
 
@@ -53,7 +57,7 @@ static void require_same_sides(const Scene& before, const Scene& now) {
 }
 
 // The partner of a contact whose keys begin with `owner`, as a wall: particles, a pair of species,
-// a wall, or a wall as a species meets it. Absent for other keys.
+// a wall or fixture, or one as a species meets it. Absent for other keys.
 static std::optional<Wall> partner_of(const Scene& laws, const std::string& owner) {
   const auto of_law = [](const PairLaw& law) {
     return Wall{.restitution = law.restitution, .roughness = law.roughness};
@@ -72,6 +76,21 @@ static std::optional<Wall> partner_of(const Scene& laws, const std::string& owne
     for (std::size_t a = 0; a < laws.species.size(); ++a) {
       if (owner == path + ".species." + laws.species[a].name) return laws.wall(side, a);
     }
+  }
+  const auto of_fixture = [&](const std::string& path, const FixtureLaw& law) -> std::optional<Wall> {
+    if (owner == path) return law.wall();
+    for (std::size_t a = 0; a < laws.species.size(); ++a) {
+      if (owner == path + ".species." + laws.species[a].name) return law.wall(a);
+    }
+    return std::nullopt;
+  };
+  for (std::size_t k = 0; k < laws.obstacles.size(); ++k) {
+    const std::string path = "obstacle." + obstacle_name(laws.obstacles[k], k);
+    if (const auto wall = of_fixture(path, laws.obstacles[k].law)) return wall;
+  }
+  for (std::size_t k = 0; k < laws.partitions.size(); ++k) {
+    const std::string path = "partition." + partition_name(laws.partitions[k], k);
+    if (const auto wall = of_fixture(path, laws.partitions[k].law)) return wall;
   }
   return std::nullopt;
 }
