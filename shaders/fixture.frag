@@ -71,7 +71,7 @@ float marks(float depth, vec2 place, float along) {
   if (depth < -0.5 || share == 1.0) return 0.0;
   if (pattern == kHatch) {
     float hatch = stripes((place.x + place.y) / (0.6 * thickness), 2.4 / thickness);
-    return 0.45 * hatch * coverage(thickness - 1.0 - depth);
+    return 0.5 * hatch * sqrt(1.0 - share);
   }
   if (pattern == kTeeth) {
     float period = 0.75 * thickness;

@@ -78,10 +78,10 @@ float mark(vec3 n, float pixels) {
 float law(float shade, vec3 n) {
   const int kRings = 1, kGlow = 3;
   const float kQuarter = 1.5707963;
-  if (u_pattern == kGlow) return mix(shade, 1.0, 0.6);
+  if (u_pattern == kGlow) return mix(shade, 1.0, 0.4);
   float period = max(1.0, 0.16 * v_radius) / v_radius;
   float angle = u_pattern == kRings ? kQuarter - abs(asin(clamp(n.y, -1.0, 1.0)))
-                                    : acos(dot(n, vec3(0.6, 0.6, 0.529150)));
+                                    : acos(dot(n, vec3(0.5, 0.7071068, -0.5)));
   float phase = angle / period - u_advance, share = u_pattern == kRings ? 0.4 : 0.3;
   float distance = 0.5 * share - abs(fract(phase) - 0.5);
   float soft = max(fwidth(angle) / period, 1e-4);

@@ -19,6 +19,8 @@ struct Sphere {
   Light light;
 };
 
+constexpr double kEdge = 0.45;  // share of the colour of text in that of edges
+
 // Width of lines, drawn pixels.
 double line_width(const Projection& projection) {
   return projection.samples *
@@ -28,8 +30,7 @@ double line_width(const Projection& projection) {
 // The colour of a face in the light of sphere.frag, by its normal in view coordinates.
 Colour lit(Colour colour, const Vec3& normal, const Eye& eye) {
   const Vec3 key(-0.40, 0.62, 0.675), up = eye.axes().col(1);
-  const double light =
-      0.45 + 0.15 * normal.dot(up) + 0.8 * std::max(normal.dot(key), 0.0);
+  const double light = 0.45 + 0.15 * normal.dot(up) + 0.8 * std::max(normal.dot(key), 0.0);
   return {encoded_light(light * linear_light(colour.red)),
           encoded_light(light * linear_light(colour.green)),
           encoded_light(light * linear_light(colour.blue))};
@@ -140,10 +141,13 @@ void BodyLayer::draw_blocks(const Bodies& bodies, const Snapshot& snapshot,
                             const Projection& projection, const Eye& eye,
                             const WallColours& colours) const {
   const Program& program = faces_.use(snapshot.box, projection, eye);
+  // Faces are behind their edges, whose lines reach over them.
+  gl_->Enable(GL_POLYGON_OFFSET_FILL);
+  gl_->PolygonOffset(static_cast<GLfloat>(line_width(projection)), 1.0f);
   for (const Bodies::Block& block : bodies.blocks) {
     const FixtureLaw& law = snapshot.obstacles[block.obstacle].law;
     const auto [fill, colour] = look_of(law, colours);
-    set_colour(*gl_, program, "u_colour", colour);
+    set_colour(*gl_, program, "u_colour", mix(colour, colours.theme.text, kEdge));
     for (int side = 0; side < 6; ++side) {
       const int axis = side / 2;
       const Vec3 normal = (side % 2 ? 1.0 : -1.0) * Vec3::Unit(axis);
@@ -156,11 +160,12 @@ void BodyLayer::draw_blocks(const Bodies& bodies, const Snapshot& snapshot,
       faces_.draw(face, eye, extent);
     }
   }
+  gl_->Disable(GL_POLYGON_OFFSET_FILL);
 }
 
 void BodyLayer::draw_balls(const Bodies& bodies, const Snapshot& snapshot,
-                           const Projection& projection, const Eye& eye,
-                           const WallColours& colours, Part part) const {
+                           const Projection& projection, const Eye& eye, const WallColours& colours,
+                           Part part) const {
   if (bodies.balls.empty()) return;
   balls_.use();
   set_eye(*gl_, balls_, snapshot.box, projection, eye);
@@ -194,7 +199,7 @@ void BodyLayer::draw_edges(const Bodies& bodies, const Snapshot& snapshot,
   std::vector<Line> lines;
   for (const Bodies::Block& block : bodies.blocks) {
     const Colour colour = look_of(snapshot.obstacles[block.obstacle].law, colours).colour;
-    const Colour edge = mix(colour, colours.theme.text, 0.45);
+    const Colour edge = mix(colour, colours.theme.text, kEdge);
     for (int axis = 0; axis < 3; ++axis) {
       for (const bool high : {false, true}) {
         const Vec3 normal = (high ? 1.0 : -1.0) * Vec3::Unit(axis);
@@ -232,7 +237,7 @@ void BodyLayer::draw_plate(const Partition& partition, const Bodies& bodies,
 void BodyLayer::draw_rims(const Partition& partition, const Bodies& bodies,
                           const Snapshot& snapshot, const Projection& projection, const Eye& eye,
                           const WallColours& colours) {
-  const Colour colour = mix(look_of(partition.law, colours).colour, colours.theme.text, 0.45);
+  const Colour colour = mix(look_of(partition.law, colours).colour, colours.theme.text, kEdge);
   const double width = line_width(projection);
   std::vector<Line> lines;
   for (const auto& [from, to] : rims_of(partition, snapshot)) {

@@ -31,8 +31,8 @@ class BodyLayer {
   void draw_edges(const Bodies& bodies, const Snapshot& snapshot, const Projection& projection,
                   const Eye& eye, const WallColours& colours);
   /// Draws the partitions where no sphere hides them.
-  void draw_partitions(const Bodies& bodies, const Snapshot& snapshot,
-                       const Projection& projection, const Eye& eye, const WallColours& colours);
+  void draw_partitions(const Bodies& bodies, const Snapshot& snapshot, const Projection& projection,
+                       const Eye& eye, const WallColours& colours);
 
  private:
   struct Look {

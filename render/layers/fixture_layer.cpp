@@ -89,13 +89,14 @@ FixtureLayer::Body FixtureLayer::body_of(const FixtureLaw& law, const Snapshot& 
   double periods = 0.0;
   if (wall.kind == WallKind::Driven) {
     // As of walls, see WallLayer.
-    periods = 0.5 * wall.drive_speed * snapshot.time * projection.scale() /
-              (kToothPeriod * thickness);
+    periods =
+        0.5 * wall.drive_speed * snapshot.time * projection.scale() / (kToothPeriod * thickness);
   }
   Body body{};
   body.marks = {static_cast<float>(pattern_of(wall.kind)), static_cast<float>(thickness),
                 static_cast<float>(outline / teeth),
                 static_cast<float>(periods - std::floor(periods))};
+  body.fill = {0, 0, 0, 0};
   body.colour = colours.of(wall);
   return body;
 }
@@ -156,8 +157,8 @@ void FixtureLayer::add_obstacle(const Obstacle& obstacle, const Snapshot& snapsh
     outline = outline_of(corners);
   }
   // A small body has a thin band.
-  const double thickness = std::min(projection.samples * wall_thickness(projection.size),
-                                    1.2 * area / outline * scale);
+  const double thickness =
+      std::min(projection.samples * wall_thickness(projection.size), 1.2 * area / outline * scale);
   Body body = body_of(obstacle.law, snapshot, projection, colours, thickness, outline * scale);
   constexpr double kFill = 0.3;
   body.fill = mix(colours.theme.background, body.colour, kFill);
@@ -190,11 +191,11 @@ void FixtureLayer::add_partition(const Partition& partition, const Snapshot& sna
     const double outline = 2.0 * ((to - from) * scale + width);
     Body body = body_of(partition.law, snapshot, projection, colours, thickness, outline);
     if (partition.law.wall().kind == WallKind::Static) body.marks[0] = kPlain;
+    body.marks[3] = 1.0f - body.marks[3];  // away from the line
     if (!partition.passes.empty()) {
       body.counts[1] = static_cast<float>((along == 0 ? 4.0 : -4.0) * width);
     }
-    const std::vector<Vec2> corners = {
-        low, Vec2(high.x(), low.y()), high, Vec2(low.x(), high.y())};
+    const std::vector<Vec2> corners = {low, Vec2(high.x(), low.y()), high, Vec2(low.x(), high.y())};
     body.shape[3] = static_cast<float>(corners_.size());
     body.counts[0] = 4.0f;
     add_corners(corners, low, scale);

@@ -59,7 +59,7 @@ class FixtureLayer {
   Buffer buffer_;
   VertexArray vertices_;
   Texture corners_texture_;
-  std::vector<Body> bodies_;                    ///< reused to avoid allocations
+  std::vector<Body> bodies_;                   ///< reused to avoid allocations
   std::vector<std::array<float, 4>> corners_;  ///< of polygons: place, length along the outline
 };
 
