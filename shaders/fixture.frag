@@ -4,7 +4,7 @@
 flat in vec4 v_shape;   // pixel of its origin, radius of a ball or 0, first corner in u_corners
 flat in vec4 v_marks;   // the enum Pattern of fixture_layer.cpp, thickness of the band with the
                         // pattern and length of a tooth in pixels, displacement in periods
-flat in vec2 v_counts;  // corners, and period of dashes along x in pixels, negative along y; 0: none
+flat in vec2 v_counts;  // corners, and period of dashes in pixels, negative along y; 0: none
 flat in vec4 v_fill;    // of a body; transparent: a line
 flat in vec4 v_colour;
 

@@ -1,8 +1,8 @@
-// A sphere with soft light, the shade of its neighbours, and an antialiased silhouette. With CUT the
-// planes of periodic borders and of a slab cut it, and the cut is flat. With ENCODED the output is
-// sRGB values instead of linear light. With MARKED spheres have marks that turn with them. With BODY
-// the sphere is a fixture, with a pattern that shows its law. These are macros, because drivers
-// without branches would compute unused parts for each pixel.
+// A sphere with soft light, the shade of its neighbours, and an antialiased silhouette. With CUT
+// the planes of periodic borders and of a slab cut it, and the cut is flat. With ENCODED the output
+// is sRGB values instead of linear light. With MARKED spheres have marks that turn with them. With
+// BODY the sphere is a fixture, with a pattern that shows its law. These are macros, because
+// drivers without branches would compute unused parts for each pixel.
 
 flat in vec3 v_centre;    // view coordinates, see render/eye.h
 flat in float v_radius;   // world units

@@ -60,14 +60,14 @@ struct Snapshot {
   std::array<std::optional<Wall>, 6> walls;   ///< indexed by Side; a pair absent: periodic
   std::array<double, 6> wall_displacement{};  ///< of each wall into the box at this time
   double piston_travel = 0.0;                 ///< of the right wall's rest position into the box
-  Vectors positions;             ///< [D][N] centres, wrapped into the box, in original order
-  Vectors velocities;            ///< [D][N]
-  std::vector<Grain> grains;     ///< [N] what the particles are; empty: all alike
-  std::vector<Species> species;  ///< of the scene, for colours and legends; empty: all alike
+  Vectors positions;                  ///< [D][N] centres, wrapped into the box, in original order
+  Vectors velocities;                 ///< [D][N]
+  std::vector<Grain> grains;          ///< [N] what the particles are; empty: all alike
+  std::vector<Species> species;       ///< of the scene, for colours and legends; empty: all alike
   std::vector<Obstacle> obstacles;    ///< of the scene
   std::vector<Partition> partitions;  ///< of the scene
-  Vectors spins;                 ///< [1][N], of spheres [3][N] angular velocities; empty: no spins
-  std::vector<double> angles;    ///< [N] rotation angles of disks, -pi..pi; empty: not observed
+  Vectors spins;               ///< [1][N], of spheres [3][N] angular velocities; empty: no spins
+  std::vector<double> angles;  ///< [N] rotation angles of disks, -pi..pi; empty: not observed
   /// [N] rotations of spheres from their start, unit quaternions; empty: not observed
   std::vector<Eigen::Quaterniond> orientations;
   double exposure = 0.0;             ///< exposure time, which ends at `time`; 0: an instant

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/run/scheduled_run.h"
+#include "engine/scene/scene_file.h"
 #include "render/layers/renderer.h"
 #include "render/palette.h"
 #include "tests/render/optional_context.h"
@@ -205,6 +207,25 @@ TEST_CASE("Fixtures: colours tell the law") {
   CHECK(difference(hot, outline(thermal)) > 50);
 }
 
+TEST_CASE("Fixtures: the snapshots of a run have those of its scene") {
+  const Scene scene = parse_scene(R"(
+      box.size = [16.0, 12.0]
+      particles.count = 5
+      [[obstacle]]
+      kind = "ball"
+      centre = [8.0, 6.0]
+      radius = 2.0
+      [[partition]]
+      position = 3.0)",
+                                  "fixtures");
+  ScheduledRun<2> run(scene, 1);
+  const Snapshot snapshot = run.snapshot();
+  CHECK(snapshot.obstacles == scene.obstacles);
+  CHECK(snapshot.partitions == scene.partitions);
+  CHECK(snapshot.obstacles.size() == 1);
+  CHECK(snapshot.partitions.size() == 1);
+}
+
 TEST_CASE("Fixtures: only the teeth of a driven body move") {
   for (const bool driven : {true, false}) {
     Snapshot snapshot = empty_box();
@@ -382,6 +403,41 @@ TEST_CASE("Fixtures in space: colours tell the law") {
   const auto [orange, orange_box] = colours(driven);
   CHECK(orange.red > 2 * orange.blue);
   CHECK(orange_box.red > 2 * orange_box.blue);
+}
+
+TEST_CASE("Fixtures in space: the edge of a ball blends with the sphere behind it") {
+  Snapshot snapshot = empty_space();
+  add_sphere(snapshot, Vec3(20.0, 15.0, 6.0), 12.0);
+  snapshot.obstacles = {ball_at(Vec3(20.03, 15.0, 15.0), 3.0)};
+  const Image image = picture_of(snapshot, light_view());
+  // Ball and sphere have luminances below 0.45. With a share of the white background the edge would
+  // be brighter.
+  for (double x = 16.5; x < 23.5; x += 0.1) {
+    CAPTURE(x);
+    CHECK(luminance(colour_at(image, x, 15.05)) < 0.5);
+  }
+}
+
+TEST_CASE("Fixtures in space: the faces of a box do not cover its edges") {
+  Snapshot snapshot = empty_space();
+  snapshot.obstacles = {box_between(Vec3(10.0, 8.0, 5.0), Vec3(30.0, 22.0, 15.0))};
+  const auto context = open_context(Backend::Auto);
+  Renderer renderer(context->gl(), 4);
+  Camera turned = kFixtureCamera;
+  turned.orbit = {.z = 10.0, .azimuth = 30.0, .elevation = 20.0, .view_angle = 30.0};
+  const Image image = draw(renderer, context->gl(), snapshot, turned, kFixtureSize, plain_view());
+  const Eye eye({turned, kFixtureSize});
+  const Colour edge = mix(kDarkTheme.static_wall, kDarkTheme.text, 0.45);
+  const Vec3 corner(30.0, 22.0, 15.0);
+  for (const Vec3& other : {Vec3(10.0, 22.0, 15.0), Vec3(30.0, 8.0, 15.0), Vec3(30.0, 22.0, 5.0)}) {
+    double off = 0.0;
+    for (int k = 1; k < 100; ++k) {
+      const Vec2 place = eye.pixels(eye.seen(corner + 0.01 * k * (other - corner)));
+      off += 0.01 * difference(edge, pixel(image, static_cast<int>(place.x()),
+                                           static_cast<int>(300.0 - place.y())));
+    }
+    CHECK(off < 5.0);
+  }
 }
 
 TEST_CASE("Fixtures in space: a slab and the walls cut bodies") {
