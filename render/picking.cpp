@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "render/bodies.h"
 #include "render/drawn_region.h"
 
 namespace clatter {
@@ -101,7 +102,9 @@ std::optional<std::size_t> particle_at(const Snapshot& snapshot, const Eye& eye,
         front = i;
       });
     }
-    if (front) return front;
+    if (!front) continue;
+    const bool hidden = bodies_of(snapshot, slab).hide(ray.origin + nearest * ray.along, eye);
+    return hidden ? std::nullopt : front;
   }
   return std::nullopt;
 }

@@ -15,7 +15,8 @@ Vec3 in_space(const VecX& position);
 VecX nearest_image(const Snapshot& snapshot, const VecX& position, const VecX& particle);
 
 /// The particle at a drawn pixel; absent: none. Of spheres it is the one in front among the visible
-/// parts, where a slab and periodic borders cut; faint parts beyond periodic borders come last.
+/// parts, where a slab and periodic borders cut, and bodies hide others. Faint parts beyond
+/// periodic borders come last.
 std::optional<std::size_t> particle_at(const Snapshot& snapshot, const Eye& eye, const Vec2& pixel,
                                        const std::optional<Slab>& slab);
 

@@ -1,11 +1,15 @@
-// A side of the box with a faint pattern that shows the kind of its wall.
+// A side of the box with a faint pattern that shows the kind of its wall. With FILLED the pattern
+// is on a plate or on a face of a body.
 
 in vec2 v_place;  // world units from the low corner of the side
 
-uniform int u_pattern;    // the enum Pattern of box_layer.cpp
+uniform int u_pattern;    // the enum Pattern of box_layer.h
 uniform vec4 u_colour;
 uniform vec2 u_extent;    // of the side, world units
 uniform float u_advance;  // of the rings of a driven wall, in periods
+#ifdef FILLED
+uniform vec4 u_fill;
+#endif
 
 out vec4 o_colour;
 
@@ -37,4 +41,9 @@ void main() {
     alpha += 0.1 + 0.45 * exp(-edge / (0.12 * size));
   }
   o_colour = vec4(u_colour.rgb, u_colour.a * alpha);
+#ifdef FILLED
+  alpha *= u_colour.a;
+  float whole = alpha + (1.0 - alpha) * u_fill.a;
+  o_colour = vec4(mix(u_fill.rgb, u_colour.rgb, alpha / whole), whole);
+#endif
 }

@@ -1,7 +1,8 @@
-// A sphere with soft light, the shade of its neighbours, and an antialiased silhouette. With CUT the
-// planes of periodic borders and of a slab cut it, and the cut is flat. With ENCODED the output is
-// sRGB values instead of linear light. With MARKED spheres have marks that turn with them. These are macros, because drivers without branches would
-// compute unused parts for each pixel.
+// A sphere with soft light, the shade of its neighbours, and an antialiased silhouette. With CUT
+// the planes of periodic borders and of a slab cut it, and the cut is flat. With ENCODED the output
+// is sRGB values instead of linear light. With MARKED spheres have marks that turn with them. With
+// BODY the sphere is a fixture, with a pattern that shows its law. These are macros, because
+// drivers without branches would compute unused parts for each pixel.
 
 flat in vec3 v_centre;    // view coordinates, see render/eye.h
 flat in float v_radius;   // world units
@@ -22,6 +23,12 @@ uniform vec3 u_low;                // corners of what is drawn, world units
 uniform vec3 u_high;
 uniform vec3 u_ghost_low;          // corners of what is drawn faintly, world units
 uniform vec3 u_ghost_high;
+
+#ifdef BODY
+uniform int u_pattern;    // the enum Pattern of box_layer.h
+uniform float u_advance;  // of the rings of a driven surface, in periods
+uniform float u_least;    // least coverage of drawn pixels
+#endif
 
 out vec4 o_colour;
 
@@ -65,6 +72,24 @@ float mark(vec3 n, float pixels) {
 }
 #endif
 
+#ifdef BODY
+// Light of the pattern of a fixture, with its normal in the world. Hatching goes around a slanted
+// axis, and the rings of a driven surface around the vertical one.
+float law(float shade, vec3 n) {
+  const int kRings = 1, kGlow = 3;
+  const float kQuarter = 1.5707963;
+  if (u_pattern == kGlow) return mix(shade, 1.0, 0.4);
+  float period = max(1.0, 0.16 * v_radius) / v_radius;
+  float angle = u_pattern == kRings ? kQuarter - abs(asin(clamp(n.y, -1.0, 1.0)))
+                                    : acos(dot(n, vec3(0.5, 0.7071068, -0.5)));
+  float phase = angle / period - u_advance, share = u_pattern == kRings ? 0.4 : 0.3;
+  float distance = 0.5 * share - abs(fract(phase) - 0.5);
+  float soft = max(fwidth(angle) / period, 1e-4);
+  float stripe = mix(clamp(distance / soft + 0.5, 0.0, 1.0), share, smoothstep(0.4, 1.0, soft));
+  return shade * mix(1.0, u_pattern == kRings ? 1.7 : 1.25, stripe);
+}
+#endif
+
 #ifdef CUT
 // First and last t of the part of a ray between two corners.
 vec2 inside(vec3 origin, vec3 per_direction, vec3 low, vec3 high) {
@@ -85,6 +110,9 @@ void main() {
   float off = length(nearest);
   float whole = coverage((v_radius - off) / v_radius * pixels);
   if (whole == 0.0) discard;
+#ifdef BODY
+  if (whole < u_least) discard;
+#endif
 
   // The chord inside the sphere, then inside the planes, in world coordinates.
   float half_chord = sqrt(max(v_radius * v_radius - off * off, 0.0));
@@ -110,6 +138,9 @@ void main() {
   float shade = light(normal);
 #ifdef MARKED
   shade *= mark(normal, pixels);
+#endif
+#ifdef BODY
+  shade = law(shade, u_axes * normal);
 #endif
 #ifdef CUT
   if (cut) {

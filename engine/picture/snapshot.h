@@ -10,6 +10,7 @@
 #include "engine/laws/wall.h"
 #include "engine/measure/field_map.h"
 #include "engine/physics/grain.h"
+#include "engine/scene/obstacle.h"
 #include "engine/scene/species.h"
 #include "engine/scene/view.h"
 #include "engine/vec.h"
@@ -59,12 +60,14 @@ struct Snapshot {
   std::array<std::optional<Wall>, 6> walls;   ///< indexed by Side; a pair absent: periodic
   std::array<double, 6> wall_displacement{};  ///< of each wall into the box at this time
   double piston_travel = 0.0;                 ///< of the right wall's rest position into the box
-  Vectors positions;             ///< [D][N] centres, wrapped into the box, in original order
-  Vectors velocities;            ///< [D][N]
-  std::vector<Grain> grains;     ///< [N] what the particles are; empty: all alike
-  std::vector<Species> species;  ///< of the scene, for colours and legends; empty: all alike
-  Vectors spins;                 ///< [1][N], of spheres [3][N] angular velocities; empty: no spins
-  std::vector<double> angles;    ///< [N] rotation angles of disks, -pi..pi; empty: not observed
+  Vectors positions;                  ///< [D][N] centres, wrapped into the box, in original order
+  Vectors velocities;                 ///< [D][N]
+  std::vector<Grain> grains;          ///< [N] what the particles are; empty: all alike
+  std::vector<Species> species;       ///< of the scene, for colours and legends; empty: all alike
+  std::vector<Obstacle> obstacles;    ///< of the scene
+  std::vector<Partition> partitions;  ///< of the scene
+  Vectors spins;               ///< [1][N], of spheres [3][N] angular velocities; empty: no spins
+  std::vector<double> angles;  ///< [N] rotation angles of disks, -pi..pi; empty: not observed
   /// [N] rotations of spheres from their start, unit quaternions; empty: not observed
   std::vector<Eigen::Quaterniond> orientations;
   double exposure = 0.0;             ///< exposure time, which ends at `time`; 0: an instant
@@ -87,7 +90,7 @@ struct Snapshot {
   }
 };
 
-/// The gas at the simulation's time, without a field and without the names of species.
+/// The gas at the simulation's time, without a field, the names of species and fixtures.
 template <int D>
 Snapshot snapshot_of(const Simulation<D>& simulation);
 

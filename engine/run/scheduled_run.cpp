@@ -273,6 +273,8 @@ template <int D>
 Snapshot ScheduledRun<D>::snapshot() {
   Snapshot snapshot = snapshot_of(*simulation_);
   snapshot.species = laws().species;
+  snapshot.obstacles = laws().obstacles;
+  snapshot.partitions = laws().partitions;
   if (shown_) shown_->publish(snapshot);
   return snapshot;
 }

@@ -21,7 +21,8 @@ namespace clatter {
   X(Finish) X(FramebufferTexture2D) X(GenBuffers) X(GenFramebuffers) X(GenTextures)               \
   X(GenVertexArrays) X(GetFloatv) X(GetIntegerv) X(GetProgramInfoLog) X(GetProgramiv)             \
   X(GetShaderInfoLog) X(GetShaderiv) X(GetString) X(GetUniformLocation) X(LinkProgram)            \
-  X(PixelStorei) X(ReadPixels) X(Scissor) X(ShaderSource) X(TexImage2D) X(TexImage3D) X(TexParameteri)          \
+  X(PixelStorei) X(PolygonOffset) X(ReadPixels) X(Scissor) X(ShaderSource) X(TexImage2D)          \
+  X(TexImage3D) X(TexParameteri)                                                                  \
   X(Uniform1f) X(Uniform1i) X(Uniform2f) X(Uniform3f) X(Uniform4f) X(UniformMatrix3fv)            \
   X(UseProgram) X(VertexAttrib1f) X(VertexAttribDivisor) X(VertexAttribPointer) X(Viewport)
 // clang-format on

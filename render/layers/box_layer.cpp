@@ -42,25 +42,28 @@ bool faces_viewer(const Snapshot& snapshot, int side, const Eye& eye) {
   return side % 2 ? viewer < face : viewer > face;
 }
 
-// Must match side.frag.
-enum Pattern { kHatch, kRings, kWaves, kGlow };
+}  // namespace
 
-Pattern pattern_of(WallKind kind) {
+SidePattern side_pattern(WallKind kind) {
   switch (kind) {
     case WallKind::Static:
-      return kHatch;
+      return SidePattern::Hatch;
     case WallKind::Driven:
     case WallKind::Sawtooth:
-      return kRings;
+      return SidePattern::Rings;
     case WallKind::Sinusoidal:
-      return kWaves;
+      return SidePattern::Waves;
     case WallKind::Thermal:
-      return kGlow;
+      return SidePattern::Glow;
   }
-  return kHatch;
+  return SidePattern::Hatch;
 }
 
-}  // namespace
+double ring_advance(const Wall& wall, double time, double period) {
+  if (wall.kind != WallKind::Driven) return 0.0;
+  const double periods = 0.5 * wall.drive_speed * time / period;
+  return periods - std::floor(periods);
+}
 
 BoxLayer::BoxLayer(const Gl& gl) : gl_(&gl), faces_(gl, "side.frag"), lines_(gl) {}
 
@@ -73,13 +76,10 @@ void BoxLayer::draw_sides(const Snapshot& snapshot, const Projection& projection
     if (!wall || !faces_viewer(snapshot, side, eye)) continue;
     const Rectangle3 rectangle = side_of(snapshot, side);
     const Vec2 extent = rectangle.high - rectangle.low;
-    // The rings move inwards as fast as the equivalent moving wall.
     const double period = std::max(1.0, 0.08 * extent.minCoeff());
-    const double periods =
-        wall->kind == WallKind::Driven ? 0.5 * wall->drive_speed * snapshot.time / period : 0.0;
-    gl_->Uniform1i(program.uniform("u_pattern"), pattern_of(wall->kind));
+    gl_->Uniform1i(program.uniform("u_pattern"), static_cast<GLint>(side_pattern(wall->kind)));
     gl_->Uniform2f(program.uniform("u_extent"), extent.x(), extent.y());
-    gl_->Uniform1f(program.uniform("u_advance"), std::floor(periods) - periods);
+    gl_->Uniform1f(program.uniform("u_advance"), -ring_advance(*wall, snapshot.time, period));
     set_colour(*gl_, program, "u_colour", colours.of(*wall));
     faces_.draw(rectangle, eye, extent);
   }

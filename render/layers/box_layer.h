@@ -7,6 +7,16 @@
 
 namespace clatter {
 
+/// The pattern of a surface in space. Must match side.frag and sphere.frag.
+enum class SidePattern { Hatch, Rings, Waves, Glow };
+
+/// The pattern of a kind of wall.
+SidePattern side_pattern(WallKind kind);
+
+/// Displacement of the rings of a driven wall, in periods, below 1. They move as fast as the
+/// equivalent moving wall.
+double ring_advance(const Wall& wall, double time, double period);
+
 /// Draws the sides of a box of spheres: the far ones as walls with a pattern of their kind, and all
 /// edges as lines, dashed between periodic borders.
 class BoxLayer {

@@ -37,14 +37,16 @@ const Program& FaceLayer::use(const Vec3& box, const Projection& projection, con
   return program_;
 }
 
-void FaceLayer::draw(const Rectangle3& rectangle, const Eye& eye, const Vec2& place) const {
+void FaceLayer::draw(const Rectangle3& rectangle, const Eye& eye, const Vec2& place,
+                     const Vec2& start) const {
   std::array<float, 20> corners;
   for (std::size_t k = 0; k < 4; ++k) {
     const Vec2 share(k % 2, k / 2);
     const Vec2 at = rectangle.low + share.cwiseProduct(rectangle.high - rectangle.low);
     const Vec3 seen = eye.seen(place_in(rectangle, at));
     for (int i = 0; i < 3; ++i) corners[5 * k + i] = static_cast<float>(seen[i]);
-    for (int i = 0; i < 2; ++i) corners[5 * k + 3 + i] = static_cast<float>(share[i] * place[i]);
+    const Vec2 shown = start + share.cwiseProduct(place - start);
+    for (int i = 0; i < 2; ++i) corners[5 * k + 3 + i] = static_cast<float>(shown[i]);
   }
   gl_->BindVertexArray(vertices_.id());
   gl_->BindBuffer(GL_ARRAY_BUFFER, buffer_.id());

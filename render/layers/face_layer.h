@@ -28,8 +28,9 @@ class FaceLayer {
 
   /// Makes the program current, and sets the uniforms of the view of a box.
   const Program& use(const Vec3& box, const Projection& projection, const Eye& eye) const;
-  /// Draws a rectangle. Positions in it run from the origin to `place`.
-  void draw(const Rectangle3& rectangle, const Eye& eye, const Vec2& place) const;
+  /// Draws a rectangle. Positions in it run from `start` to `place`.
+  void draw(const Rectangle3& rectangle, const Eye& eye, const Vec2& place,
+            const Vec2& start = Vec2::Zero()) const;
 
  private:
   const Gl* gl_;

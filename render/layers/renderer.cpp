@@ -135,7 +135,12 @@ void Renderer::draw_disks(const Snapshot& snapshot, const Projection& projection
   }
   pause(projection);
   if (view.grid) grid_.draw(snapshot, projection, thin(theme.static_wall, kGrid));
-  walls_.draw(snapshot, projection, wall_colours(theme, legends, view, 2));
+  const WallColours walls = wall_colours(theme, legends, view, 2);
+  if (has_fixtures(snapshot)) {
+    if (!fixtures_) fixtures_.emplace(*gl_);
+    fixtures_->draw(snapshot, projection, walls, tiling);
+  }
+  walls_.draw(snapshot, projection, walls);
   const DiskColours colours = disk_colours(snapshot, view, legends, theme);
   blend_in_light(true);
   if (view.trails)
@@ -198,19 +203,32 @@ void Renderer::draw_spheres(const Snapshot& snapshot, const Projection& projecti
     space_->slices.draw(snapshot, slices, projection, eye, legends.field->scale, style,
                         gap_colour(theme, style));
   }
+  const bool fixtures = has_fixtures(snapshot);
+  Bodies bodies;
+  if (fixtures) {
+    bodies = bodies_of(snapshot, view.slab);
+    if (!space_->bodies) space_->bodies.emplace(*gl_, colours.blending);
+    space_->bodies->draw_blocks(bodies, snapshot, projection, eye, walls);
+  }
   pause(projection);
   // Spheres without a shape and the volume have no depths, so edges behind them are drawn first.
   const bool light = view.opacity > 0.0 && SphereLight::draws(eye, snapshot);
   const bool depthless = light || volume;
   using Sides = BoxLayer::Sides;
   if (depthless) space_->box.draw_edges(snapshot, projection, eye, walls, Sides::Far);
+  if (depthless && fixtures) space_->bodies->draw_edges(bodies, snapshot, projection, eye, walls);
   blend_in_light(true);
+  const auto draw_balls = [&](BodyLayer::Part part) {
+    if (fixtures) space_->bodies->draw_balls(bodies, snapshot, projection, eye, walls, part);
+  };
+  draw_balls(BodyLayer::Part::Inside);
   // All spheres without a shape are behind a plane across the view, and the others before it.
-  if (light) space_->light.draw(snapshot, projection, eye, colours, view.slab, slices);
+  if (light) space_->light.draw(snapshot, projection, eye, colours, view.slab, slices, bodies);
   // The volume would end at the faint parts of spheres in front of it.
   if (view.opacity > 0.0) {
     space_->spheres.draw(snapshot, projection, eye, colours, view.slab, !volume);
   }
+  draw_balls(BodyLayer::Part::Edge);
   pause(projection);
   if (volume) {
     fine_->bind_colours();
@@ -220,6 +238,10 @@ void Renderer::draw_spheres(const Snapshot& snapshot, const Projection& projecti
     pause(projection);
   }
   blend_in_light(false);
+  if (fixtures) {
+    if (!depthless) space_->bodies->draw_edges(bodies, snapshot, projection, eye, walls);
+    space_->bodies->draw_partitions(bodies, snapshot, projection, eye, walls);
+  }
   draw_lines(snapshot, projection, view, legends, theme, colours, eye);
   space_->box.draw_edges(snapshot, projection, eye, walls, depthless ? Sides::Near : Sides::All);
   gl_->Disable(GL_DEPTH_TEST);

@@ -9,9 +9,11 @@
 #include "render/layers/arrow_layer.h"
 #include "render/layers/auto_ranges.h"
 #include "render/layers/average_layer.h"
+#include "render/layers/body_layer.h"
 #include "render/layers/box_layer.h"
 #include "render/layers/disk_layer.h"
 #include "render/layers/field_layer.h"
+#include "render/layers/fixture_layer.h"
 #include "render/layers/grid_layer.h"
 #include "render/layers/overlay.h"
 #include "render/layers/slice_layer.h"
@@ -61,6 +63,7 @@ class Renderer {
     SphereLayer spheres;
     VolumeLayer volume;
     LineLayer lines;
+    std::optional<BodyLayer> bodies;  ///< absent: no fixtures drawn yet
   };
   void draw_lines(const Snapshot& snapshot, const Projection& projection, const View& view,
                   const Legends& legends, const ThemeColours& theme, const DiskColours& colours,
@@ -91,6 +94,7 @@ class Renderer {
   AverageLayer average_;
   FieldLayer field_;
   GridLayer grid_;
+  std::optional<FixtureLayer> fixtures_;  ///< absent: no fixtures of disks drawn yet
   WallLayer walls_;
   TrailLayer trails_;
   DiskLayer disks_;

@@ -56,8 +56,8 @@ bool SphereLight::draws(const Eye& eye, const Snapshot& snapshot) {
 
 void SphereLight::draw(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
                        const DiskColours& colours, const std::optional<Slab>& slab,
-                       std::span<const Slice> slices) {
-  collect(snapshot, projection, eye, slab, slices);
+                       std::span<const Slice> slices, const Bodies& bodies) {
+  collect(snapshot, projection, eye, slab, slices, bodies);
   if (small_.empty()) return;
   sort();
   const float largest = std::ranges::max(small_, {}, &Small::radius).radius;
@@ -81,7 +81,8 @@ void SphereLight::draw(const Snapshot& snapshot, const Projection& projection, c
 }
 
 void SphereLight::collect(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
-                          const std::optional<Slab>& slab, std::span<const Slice> slices) {
+                          const std::optional<Slab>& slab, std::span<const Slice> slices,
+                          const Bodies& bodies) {
   const double largest = 0.5 * snapshot.diameter;
   const Vec2 high(projection.drawn().width + Coverage::kLargestRadius,
                   projection.drawn().height + Coverage::kLargestRadius);
@@ -98,7 +99,7 @@ void SphereLight::collect(const Snapshot& snapshot, const Projection& projection
       continue;
     }
     const auto hidden = [&](const Slice& slice) { return hides(slice, position, box, eye); };
-    if (std::ranges::any_of(slices, hidden)) continue;
+    if (std::ranges::any_of(slices, hidden) || bodies.hide(position, eye)) continue;
     small_.push_back({static_cast<float>(centre.x()), static_cast<float>(centre.y()),
                       static_cast<float>(eye.pixels(seen, snapshot.radius(i))),
                       static_cast<float>(-seen.z()), static_cast<std::uint32_t>(i)});

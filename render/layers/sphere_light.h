@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/picture/snapshot.h"
+#include "render/bodies.h"
 #include "render/eye.h"
 #include "render/layers/coverage.h"
 #include "render/layers/disk_colours.h"
@@ -27,11 +28,11 @@ class SphereLight {
 
   explicit SphereLight(const Gl& gl) : gl_(&gl), light_(gl) {}
 
-  /// Draws the small spheres with their centre in the slab and in front of all slices. Those on a
-  /// periodic border have no image.
+  /// Draws the small spheres with their centre in the slab and in front of all slices and
+  /// bodies. Those on a periodic border have no image.
   void draw(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
             const DiskColours& colours, const std::optional<Slab>& slab,
-            std::span<const Slice> slices);
+            std::span<const Slice> slices, const Bodies& bodies = {});
 
  private:
   struct Small {
@@ -42,7 +43,8 @@ class SphereLight {
   };
 
   void collect(const Snapshot& snapshot, const Projection& projection, const Eye& eye,
-               const std::optional<Slab>& slab, std::span<const Slice> slices);
+               const std::optional<Slab>& slab, std::span<const Slice> slices,
+               const Bodies& bodies);
   void sort();
 
   const Gl* gl_;

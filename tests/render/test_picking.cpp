@@ -104,6 +104,30 @@ TEST_CASE("Picking: a faint part beyond a periodic border is picked where nothin
   CHECK_FALSE(particle_at(snapshot, eye, {400.0, 300.0}, {}));
 }
 
+TEST_CASE("Picking: a sphere behind a body is not picked, and one in front of it is") {
+  for (const double view_angle : {0.0, 40.0}) {
+    for (const bool ball : {true, false}) {
+      Snapshot snapshot;
+      snapshot.box = Vec3(6.0, 6.0, 6.0);
+      for (auto& wall : snapshot.walls) wall = Wall{};
+      Obstacle body;
+      body.kind = ball ? ObstacleKind::Ball : ObstacleKind::Box;
+      body.centre = Vec3(3.0, 3.0, 3.0);
+      body.from = Vec3(2.0, 2.0, 2.0);
+      body.to = Vec3(4.0, 4.0, 4.0);
+      snapshot.obstacles = {body};
+      const Eye eye({{{3.0, 3.0}, 8.0, {.z = 3.0, .view_angle = view_angle}}, kPickingSize});
+      snapshot.positions = Vec3(3.0, 3.0, 1.0);
+      CHECK_FALSE(particle_at(snapshot, eye, {400.0, 300.0}, {}));
+      snapshot.positions = Vec3(3.0, 3.0, 5.0);
+      CHECK(particle_at(snapshot, eye, {400.0, 300.0}, {}) == 0u);
+      // A slab in front of the body cuts it away.
+      snapshot.positions = Vec3(3.0, 3.0, 0.8);
+      CHECK(particle_at(snapshot, eye, {400.0, 300.0}, Slab{Axis::Z, 0.0, 1.5}) == 0u);
+    }
+  }
+}
+
 TEST_CASE("Picking: nothing behind the viewer is picked, and a disk needs no depth") {
   Snapshot snapshot;
   snapshot.box = Vec3(6.0, 6.0, 60.0);
