@@ -65,6 +65,32 @@ void print_events(const Scene& scene, double end) {
   std::fprintf(stderr, "; at the start temperature %g.\n", temperature);
 }
 
+// The smallest diameter of a particle.
+double least_diameter(const Scene& scene) {
+  double least = scene.species.empty() ? 1.0 : scene.largest_diameter();
+  for (const Species& species : scene.species) {
+    least = std::min(least, species.smallest_diameter());
+  }
+  return least;
+}
+
+void print_fixtures(const Scene& scene) {
+  if (!scene.has_fixtures()) return;
+  std::fprintf(stderr, "Fixtures: %s and %s, which leave %.3f of the box free.\n",
+               counted(scene.obstacles.size(), "obstacle").c_str(),
+               counted(scene.partitions.size(), "partition").c_str(), free_share(scene));
+  const double least = least_diameter(scene);
+  for (std::size_t k = 0; k < scene.partitions.size(); ++k) {
+    for (const Hole& hole : scene.partitions[k].holes) {
+      double width = hole.to[0] - hole.from[0];
+      if (hole.to.size() > 1) width = std::min(width, hole.to[1] - hole.from[1]);
+      if (width >= least) continue;
+      std::fprintf(stderr, "A hole of %s is %s wide: no particle passes it.\n",
+                   partition_name(scene.partitions[k], k).c_str(), number_text(width).c_str());
+    }
+  }
+}
+
 void print_packing(const Scene& scene) {
   const double most = compressed_fraction(scene), closest = closest_packing(scene.dimension());
   if (most <= closest) return;
@@ -92,6 +118,7 @@ int check(const CommonOptions& options) {
   std::fputs(".\n", stderr);
   print_events(scene, options.until.value_or(scene.measure.burn_in + scene.measure.duration));
   print_packing(scene);
+  print_fixtures(scene);
   print_allocation();
   print_way(scene);
   print_parts(scene);

@@ -350,6 +350,10 @@ void add_sweep_command(CLI::App& program, int& exit_code) {
             "Measure and draw the ratio of the temperatures of two species against their masses, "
             "with the theory.",
             mixture_study);
+  add_study(*sweep, exit_code, "demon",
+            "Measure and draw how unequal two compartments of a shaken gas become, against its "
+            "restitution.",
+            demon_study);
 }
 
 }  // namespace clatter

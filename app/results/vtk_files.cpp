@@ -9,6 +9,7 @@
 #include <iterator>
 #include <system_error>
 
+#include "app/results/vtk_fixtures.h"
 #include "app/results/vtk_xml.h"
 #include "engine/statistics/part_sums.h"
 #include "engine/system/write_file.h"
@@ -20,6 +21,7 @@ namespace {
 
 constexpr const char* kFieldsFile = "fields.vti";
 constexpr const char* kSeriesFile = "series.pvd";
+constexpr const char* kShapesFile = "fixtures.vtp";
 
 // The names of the components of a field in the order of VTK: of a scalar, a vector, or a symmetric
 // tensor. Components outside the plane are 0.
@@ -153,10 +155,26 @@ std::vector<std::filesystem::path> parts_listed(const std::filesystem::path& fol
 }  // namespace
 
 std::vector<std::string> vtk_names() {
-  std::vector<std::string> names = {kFieldsFile, kSeriesFile};
+  std::vector<std::string> names = {kFieldsFile, kSeriesFile, kShapesFile};
   for (std::size_t k = 0; k < PartSums<CellSums>::kMaxParts; ++k) names.push_back(part_name(k));
   return names;
 }
+
+template <int D>
+void write_vtk_fixtures(const std::filesystem::path& folder,
+                        const std::vector<Fixture<D>>& fixtures, const std::string& origin) {
+  if (!fixtures.empty()) {
+    write_file(folder / kShapesFile, fixture_shapes<D>(fixtures, origin));
+  } else {
+    std::error_code ignored;
+    std::filesystem::remove(folder / kShapesFile, ignored);
+  }
+}
+
+template void write_vtk_fixtures(const std::filesystem::path&, const std::vector<Fixture<2>>&,
+                                 const std::string&);
+template void write_vtk_fixtures(const std::filesystem::path&, const std::vector<Fixture<3>>&,
+                                 const std::string&);
 
 void write_vtk(const std::filesystem::path& folder, const Measured& measured,
                const std::string& origin, const StopRequest& stop) {

@@ -17,7 +17,13 @@ namespace clatter {
 void write_vtk(const std::filesystem::path& folder, const Measured& measured,
                const std::string& origin, const StopRequest& stop = {});
 
-/// The names of all files that write_vtk() can write.
+/// Writes the shapes of fixtures into the same folder, as fixtures.vtp. Without fixtures it removes
+/// this file.
+template <int D>
+void write_vtk_fixtures(const std::filesystem::path& folder,
+                        const std::vector<Fixture<D>>& fixtures, const std::string& origin);
+
+/// The names of all files of such a folder.
 std::vector<std::string> vtk_names();
 
 }  // namespace clatter

@@ -193,4 +193,42 @@ zip = [["bulk_drive.kick_speed", "measure.burn_in", "measure.duration"]]
   return study;
 }
 
+// Without an opinion of its own each replica chooses one of the halves, so the imbalance has the
+// magnitude of the difference. Near the transition a gas needs long to split.
+Study demon_study(int dimension) {
+  const bool disks = dimension == 2;
+  Study study;
+  study.sweep = fmt::format(
+      R"(# The imbalance of two compartments over a driven floor, against the restitution of the grains.
+scene = "demon"
+replicas = 8
+
+[set]
+{}"measure.burn_in" = 1000.0
+"measure.duration" = 3000.0
+"measure.fields" = []
+
+[axes]
+"particles.restitution" = {{ from = 0.65, to = 0.95, count = 13 }}
+"particles.count" = {}
+)",
+      disks ? ""
+            : R"("box.size" = [20.0, 24.0, 3.0]
+"gravity.acceleration" = [0.0, -1.0, 0.0]
+"partition.wall.holes" = [{ from = [6.0, 0.0], to = [24.0, 3.0] }]
+"measure.cells" = [1, 1, 1]
+)",
+      disks ? "[20, 40, 60]" : "[60, 120, 180]");
+  study.charts = {{"imbalance",
+                   {.x = "particles.restitution",
+                    .y = "compartments.imbalance",
+                    .by = "particles.count",
+                    .y_label = "|N_left - N_right|/N",
+                    .title = "Maxwell's demon: a granular gas splits by itself",
+                    .caption = "Two compartments over a driven floor, with an opening between them. "
+                               "Below a restitution one of them takes most grains. Fewer grains lose less energy, "
+                               "and need a lower one."}}};
+  return study;
+}
+
 }  // namespace clatter

@@ -31,4 +31,7 @@ Study rough_study(int dimension);
 /// gas that cools and in a gas that is kicked (theory 12).
 Study mixture_study(int dimension);
 
+/// Imbalance of two compartments over a driven floor against the restitution (theory 13).
+Study demon_study(int dimension);
+
 }  // namespace clatter

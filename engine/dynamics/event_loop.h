@@ -187,6 +187,15 @@ class EventLoop {
     Vec<D> v;
   };
 
+  /// What a particle touches that is no particle.
+  struct Surface {
+    int side;               // the Side; WallCollision::kNoSide for a fixture
+    std::uint32_t fixture;  // number in the model, without a side
+    Vec<D> normal;          // towards the particle
+    const Wall& law;
+    WallState motion;
+  };
+
   void process(Event event);
   Halt after(const Event& event, bool collided);
   void retire(std::uint32_t number);
@@ -196,8 +205,8 @@ class EventLoop {
   void hit(std::uint32_t number, std::uint32_t partner, const IntVec<D>& image);
   void hit_wall(std::uint32_t number, int side);
   void hit_fixture(std::uint32_t number, std::uint32_t piece, const IntVec<D>& image);
-  void bounce(std::uint32_t number, const Motion& at, const Wall& law, const WallState& wall,
-              WallCollision<D> collision);
+  [[gnu::always_inline]] inline void bounce(std::uint32_t number, const Motion& at,
+                                            const Surface& surface);
   bool within_contact_time(std::uint32_t number) const;
   bool is_too_fast(std::uint32_t number) const;
   void enter_next_cell(std::uint32_t number);

@@ -193,6 +193,34 @@ void EventLoop<D>::collide(std::uint32_t first, std::uint32_t second, const IntV
     gas_.last_collisions[first] = gas_.last_collisions[second] = now_;
 }
 
+// Reflects or emits a particle that touches a surface, and reports it.
+template <int D>
+void EventLoop<D>::bounce(std::uint32_t number, const Motion& at, const Surface& surface) {
+  const bool elastic = within_contact_time(number) && surface.law.kind != WallKind::Thermal;
+  const Departure<D> departure = wall_outcome<D>(
+      model_, surface.law, surface.normal, surface.motion,
+      {at.v, spin(number), record_ ? record_->numbers[number] : number,
+       std::uint64_t{gas_.era} << 32 | gas_.particles[number].flight.number, grain(number)},
+      elastic);
+  if (!observers_.empty()) {
+    const Spin<D> spin_gain = departure.spin - spin(number);
+    const Vec<D> gain = grain(number).mass * (departure.velocity - at.v);
+    const WallCollision<D> collision{now_,
+                                     surface.side,
+                                     change_of(gas_, number, grain(number), at.r, at.v,
+                                               spin(number), Impulse<D>{gain, spin_gain}),
+                                     surface.normal,
+                                     surface.fixture};
+    for (Observer<D>* observer : observers_) observer->on_wall(collision);
+  }
+  --until_base_moves_;
+  renew_flight(number, at.r, departure.velocity);
+  if (!gas_.spins.empty()) gas_.spins[number] = departure.spin;
+  ++counts_.wall_collisions;
+  counts_.elasticised_wall += elastic;
+  if (!gas_.last_collisions.empty()) gas_.last_collisions[number] = now_;
+}
+
 template <int D>
 void EventLoop<D>::hit(std::uint32_t number, std::uint32_t partner, const IntVec<D>& image) {
   if (partner >= kWall) {
@@ -215,8 +243,9 @@ void EventLoop<D>::hit_wall(std::uint32_t number, int side) {
     at.r[axis] = place;
     if (!gas_.remainders.empty()) gas_.remainders[number][axis] = 0.0;
   }
-  bounce(number, at, model_.wall(side, grain(number).species), boundary_.wall(side, now_),
-         {.side = side, .particle = {}, .normal = Boundary<D>::normal(side)});
+  bounce(number, at,
+         {side, 0, Boundary<D>::normal(side), model_.wall(side, grain(number).species),
+          boundary_.wall(side, now_)});
 }
 
 // The position is set to that of contact, as at a fixed wall.
@@ -229,35 +258,9 @@ void EventLoop<D>::hit_fixture(std::uint32_t number, std::uint32_t piece, const 
   const double beyond = grain(number).radius - touched.distance(place);
   checks_.deepest_overlap = std::max(checks_.deepest_overlap, beyond / model_.diameter);
   at.r += beyond * normal;
-  bounce(number, at, model_.fixtures[fixture].law_for(grain(number).species), {},
-         {.side = WallCollision<D>::kNoSide, .particle = {}, .normal = normal, .fixture = fixture});
-}
-
-// Reflects or emits a particle that touches a wall or a fixture, and reports it. `collision` has
-// the partner.
-template <int D>
-void EventLoop<D>::bounce(std::uint32_t number, const Motion& at, const Wall& law,
-                          const WallState& wall, WallCollision<D> collision) {
-  const bool elastic = within_contact_time(number) && law.kind != WallKind::Thermal;
-  const Departure<D> departure = wall_outcome<D>(
-      model_, law, collision.normal, wall,
-      {at.v, spin(number), record_ ? record_->numbers[number] : number,
-       std::uint64_t{gas_.era} << 32 | gas_.particles[number].flight.number, grain(number)},
-      elastic);
-  if (!observers_.empty()) {
-    const Spin<D> spin_gain = departure.spin - spin(number);
-    const Vec<D> gain = grain(number).mass * (departure.velocity - at.v);
-    collision.time = now_;
-    collision.particle = change_of(gas_, number, grain(number), at.r, at.v, spin(number),
-                                   Impulse<D>{gain, spin_gain});
-    for (Observer<D>* observer : observers_) observer->on_wall(collision);
-  }
-  --until_base_moves_;
-  renew_flight(number, at.r, departure.velocity);
-  if (!gas_.spins.empty()) gas_.spins[number] = departure.spin;
-  ++counts_.wall_collisions;
-  counts_.elasticised_wall += elastic;
-  if (!gas_.last_collisions.empty()) gas_.last_collisions[number] = now_;
+  bounce(number, at,
+         {WallCollision<D>::kNoSide, fixture, normal,
+          model_.fixtures[fixture].law_for(grain(number).species), {}});
 }
 
 // The total momentum stays: every particle loses the same velocity.
@@ -372,10 +375,6 @@ template void EventLoop<2>::hit_wall(std::uint32_t, int);
 template void EventLoop<3>::hit_wall(std::uint32_t, int);
 template void EventLoop<2>::hit_fixture(std::uint32_t, std::uint32_t, const IntVec<2>&);
 template void EventLoop<3>::hit_fixture(std::uint32_t, std::uint32_t, const IntVec<3>&);
-template void EventLoop<2>::bounce(std::uint32_t, const Motion&, const Wall&, const WallState&,
-                                   WallCollision<2>);
-template void EventLoop<3>::bounce(std::uint32_t, const Motion&, const Wall&, const WallState&,
-                                   WallCollision<3>);
 template void EventLoop<2>::begin_stroke();
 template void EventLoop<3>::begin_stroke();
 template void EventLoop<2>::kick();

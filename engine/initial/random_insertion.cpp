@@ -221,7 +221,8 @@ class SparseInsertion : public RandomInsertion<D>::Work {
 
   bool place(std::size_t count, Random& random, const StopRequest& pause) override {
     while (placed() < count && failures_ < kMostFailures) {
-      if (tries_++ % kStepsPerQuestion == 0 && pause.made()) return false;
+      const std::size_t steps = placed() + static_cast<std::size_t>(failures_);
+      if (steps % kStepsPerQuestion == 0 && pause.made()) return false;
       Vec<D> point;
       for (int axis = 0; axis < D; ++axis) {
         point[axis] = low(axis) + random.uniform() * (room_.box[axis] - 2.0 * low(axis));
@@ -263,7 +264,6 @@ class SparseInsertion : public RandomInsertion<D>::Work {
   Room<D> room_;
   FixtureImages<D> fixtures_;
   NearParticles<D> near_;
-  std::uint64_t tries_ = 0;
   int failures_ = 0;  // tries since the last particle
 };
 

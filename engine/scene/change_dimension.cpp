@@ -26,7 +26,9 @@ VecX changed_box(const Scene& scene, int dimension) {
 }
 
 bool has_axis(const Override& setting, int dimension) {
-  if (setting.key.starts_with("gravity")) return false;
+  for (const char* const table : {"gravity", "obstacle.", "partition."}) {
+    if (setting.key.starts_with(table)) return false;
+  }
   for (int side = 2 * dimension; side < 6; ++side) {
     if (setting.key.starts_with(std::string("walls.") + kSideNames[side])) return false;
   }
@@ -48,6 +50,63 @@ bool remove_settings(std::vector<Change>& changes, int dimension) {
   return removed > 0;
 }
 
+VecX with_depth(const VecX& place, double depth) {
+  VecX deep(3);
+  deep << place.head<2>(), depth;
+  return deep;
+}
+
+// Gives a ball the middle of the depth, and a box all of it.
+void change_obstacle(Obstacle& obstacle, const VecX& ratio, double depth, bool flat) {
+  for (VecX* place : {&obstacle.centre, &obstacle.from, &obstacle.to}) {
+    *place = VecX(place->head<2>().cwiseProduct(ratio));
+  }
+  obstacle.radius *= ratio.minCoeff();
+  if (flat) return;
+  obstacle.centre = with_depth(obstacle.centre, 0.5 * depth);
+  obstacle.from = with_depth(obstacle.from, 0.0);
+  obstacle.to = with_depth(obstacle.to, depth);
+}
+
+// Gives holes all of the depth.
+void change_partition(Partition& partition, const VecX& ratio, double depth, bool flat) {
+  const int across = static_cast<int>(partition.axis), along = 1 - across;
+  partition.position *= ratio[across];
+  for (Hole& hole : partition.holes) {
+    hole.from = {hole.from[0] * ratio[along]};
+    hole.to = {hole.to[0] * ratio[along]};
+    if (flat) continue;
+    hole.from.push_back(0.0);
+    hole.to.push_back(depth);
+  }
+}
+
+// Gives fixtures their places in the changed box. Fixtures that have none are removed; then all
+// keep their names. Returns whether there were any.
+bool change_fixtures(Scene& made, const VecX& former_box) {
+  const bool flat = made.dimension() == 2;
+  const VecX ratio = made.box.head<2>().cwiseQuotient(former_box.head<2>());
+  const double depth = flat ? 0.0 : made.box[2];
+  for (std::size_t k = 0; k < made.obstacles.size(); ++k) {
+    made.obstacles[k].name = obstacle_name(made.obstacles[k], k);
+    change_obstacle(made.obstacles[k], ratio, depth, flat);
+  }
+  for (std::size_t k = 0; k < made.partitions.size(); ++k) {
+    made.partitions[k].name = partition_name(made.partitions[k], k);
+  }
+  std::size_t removed = 0;
+  if (flat) {
+    removed += std::erase_if(made.partitions,
+                             [](const Partition& one) { return one.axis == Axis::Z; });
+  } else {
+    removed += std::erase_if(made.obstacles, [](const Obstacle& one) {
+      return one.kind == ObstacleKind::Polygon;
+    });
+  }
+  for (Partition& one : made.partitions) change_partition(one, ratio, depth, flat);
+  return removed > 0;
+}
+
 bool is_among(Field field, const std::vector<NamedField>& names) {
   return std::ranges::find(names, field, &NamedField::second) != names.end();
 }
@@ -64,6 +123,7 @@ ChangedDimension change_dimension(const Scene& scene, int dimension) {
   };
   made.box = changed_box(scene, dimension);
   const bool flat = dimension == 2;
+  remove_if(change_fixtures(made, scene.box), "obstacle or partition", [] {});
 
   Start& start = made.particles.start;
   remove_if(start.layout == Layout::File, "particles.start.file",

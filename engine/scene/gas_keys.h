@@ -183,7 +183,9 @@ inline constexpr auto kPartitionKeys = key_table(
      {"passes", "", "Names of species that do not see the partition: it is a membrane."}});
 inline constexpr auto kHoleKeys = key_table(
     kRunCommands,
-    {{"from", "a", "Lower end of the hole along the other axis. In 3D along the other two, in order."},
+    {{"from", "a",
+      "Lower end of the hole along the other axis. In 3D along the other two, "
+      "in order."},
      {"to", "a", "Upper end of the hole, in the same way."}});
 
 /// The keys of one item of [[partition]].
@@ -197,9 +199,8 @@ void visit_partition(Visitor& io, Partition& partition, int dimension,
   io.value(kFixtureKeys.at("present"), partition.present);
   visit_fixture_law(io, partition.law, species);
   io.list("holes", partition.holes, [&](auto& io, Hole& hole) {
-    for (VecX* end : {&hole.from, &hole.to}) {
-      if (end->size() != dimension - 1) *end = VecX::Zero(dimension - 1);
-    }
+    hole.from.resize(static_cast<std::size_t>(dimension - 1));
+    hole.to.resize(hole.from.size());
     io.value(kHoleKeys.at("from"), hole.from, between(0.0, kMaxLength), kRequired);
     io.value(kHoleKeys.at("to"), hole.to, between(0.0, kMaxLength), kRequired);
   });

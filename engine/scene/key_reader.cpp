@@ -180,6 +180,13 @@ bool KeyReader::read(const toml::node& node, Limits limits, std::vector<int>& va
   return true;
 }
 
+bool KeyReader::read(const toml::node& node, Limits limits, std::vector<double>& value) {
+  const auto numbers = numbers_in(node, limits, static_cast<Eigen::Index>(value.size()));
+  if (!numbers) return false;
+  value.assign(numbers->begin(), numbers->end());
+  return true;
+}
+
 // The limits are those of the number of texts.
 bool KeyReader::read(const toml::node& node, Limits limits, std::vector<std::string>& texts) {
   const toml::array* array = node.as_array();

@@ -138,6 +138,7 @@ class KeyReader {
   static bool read(const toml::node& node, Limits limits, std::vector<Vec2>& points);
   static bool read(const toml::node& node, Limits limits, VecX& value);
   static bool read(const toml::node& node, Limits limits, std::vector<int>& value);
+  static bool read(const toml::node& node, Limits limits, std::vector<double>& value);
   static bool read(const toml::node& node, Limits limits, std::vector<std::string>& texts);
   static bool read(const toml::node& node, Limits limits, ColourRange& range);
   static bool read(const toml::node& node, Limits limits, Rgb& colour);

@@ -26,7 +26,6 @@ static std::string within(const std::string& what, Limits limits) {
 
 // The number of values and their axes in words.
 static std::string count_and_axes(const std::string& numbers, Limits limits, std::size_t size) {
-  if (size == 1) return "a list of one number" + within("", limits);
   return (size == 2 ? "two " : "three ") + numbers + within("", limits) +
          (size == 2 ? ", along x and y" : ", along x, y and z");
 }
@@ -71,6 +70,10 @@ std::string allowed_values(const VecX& numbers, Limits limits) {
 
 std::string allowed_values(const std::vector<int>& numbers, Limits limits) {
   return count_and_axes("whole numbers", limits, numbers.size());
+}
+
+std::string allowed_values(const std::vector<double>& numbers, Limits limits) {
+  return "a list of " + counted(numbers.size(), "number") + within("", limits);
 }
 
 std::string allowed_values(const ColourRange&, Limits limits) {

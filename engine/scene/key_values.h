@@ -19,6 +19,7 @@ std::string allowed_values(const Vec2& numbers, Limits limits);
 std::string allowed_values(const std::vector<Vec2>& points, Limits limits);
 std::string allowed_values(const VecX& numbers, Limits limits);
 std::string allowed_values(const std::vector<int>& numbers, Limits limits);
+std::string allowed_values(const std::vector<double>& numbers, Limits limits);
 std::string allowed_values(const ColourRange& range, Limits limits);
 std::string allowed_values(const Rgb& colour, Limits limits);
 

@@ -55,6 +55,10 @@ std::string value_text(const std::vector<int>& numbers) {
   return array_text(numbers);
 }
 
+std::string value_text(const std::vector<double>& numbers) {
+  return array_text(numbers);
+}
+
 std::string value_text(const ColourRange& range) {
   switch (range.kind) {
     case ColourRange::Auto:

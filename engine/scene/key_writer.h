@@ -23,6 +23,7 @@ std::string value_text(const Vec2& vector);               ///< as an array
 std::string value_text(const std::vector<Vec2>& points);  ///< as an array of arrays
 std::string value_text(const VecX& vector);               ///< as an array
 std::string value_text(const std::vector<int>& numbers);  ///< as an array
+std::string value_text(const std::vector<double>& numbers);  ///< as an array
 std::string value_text(const ColourRange& range);         ///< as in the scene file
 std::string value_text(const Rgb& colour);                ///< "#rrggbb", quoted
 

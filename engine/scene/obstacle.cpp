@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/dimension.h"
 #include "engine/laws/fixture.h"
 #include "engine/scene/scene.h"
 
@@ -168,15 +169,15 @@ std::vector<Piece<D>> partition_pieces(const Scene& scene, const Partition& part
     return place > 0.0 && place < scene.box[along[k]];
   };
   for (const Hole& hole : partition.holes) {
-    const std::array<VecX, 2> ends = {hole.from, hole.to};
-    for (const VecX& first : ends) {
+    const std::array<std::vector<double>, 2> ends = {hole.from, hole.to};
+    for (const std::vector<double>& first : ends) {
       if (!is_inside(0, first[0])) continue;
       if constexpr (D == 2) {
         pieces.push_back(ball_piece<2>(point({first[0]}), 0.0));
       } else {
         pieces.push_back(flat_piece<3>(point({first[0], hole.from[1]}),
                                        {edge(1, hole.to[1] - hole.from[1])}));
-        for (const VecX& second : ends) {
+        for (const std::vector<double>& second : ends) {
           if (is_inside(1, second[1])) {
             pieces.push_back(ball_piece<3>(point({first[0], second[1]}), 0.0));
           }
@@ -184,7 +185,7 @@ std::vector<Piece<D>> partition_pieces(const Scene& scene, const Partition& part
       }
     }
     if constexpr (D == 3) {
-      for (const VecX& second : ends) {
+      for (const std::vector<double>& second : ends) {
         if (!is_inside(1, second[1])) continue;
         pieces.push_back(flat_piece<3>(point({hole.from[0], second[1]}),
                                        {edge(0, hole.to[0] - hole.from[0])}));
@@ -218,6 +219,28 @@ std::vector<Fixture<D>> fixtures_of(const Scene& scene) {
     fixtures.push_back(fixture_of<D>(scene, scene.partitions[k], k));
   }
   return fixtures;
+}
+
+template <int D>
+static double free_share_of(const Scene& scene) {
+  constexpr int kPoints = D == 2 ? 500 : 64;  // along each axis
+  Domain<D> domain{.box = scene.box};
+  for (int axis = 0; axis < D; ++axis) domain.periodic[axis] = scene.periodic(axis);
+  const FixtureImages<D> fixtures(fixtures_of<D>(scene), domain);
+  double free = 0.0, all = 0.0;
+  IntVec<D> at = IntVec<D>::Zero();
+  while (at[D - 1] < kPoints) {
+    const Vec<D> share = (at.template cast<double>().array() + 0.5) / kPoints;
+    free += fixtures.depth(domain.box.cwiseProduct(share), 0.0, 0) == 0.0;
+    all += 1.0;
+    for (int axis = 0; ++at[axis] == kPoints && axis < D - 1; ++axis) at[axis] = 0;
+  }
+  return free / all;
+}
+
+double free_share(const Scene& scene) {
+  return with_dimension(scene.dimension(),
+                        [&](auto dimension) { return free_share_of<dimension>(scene); });
 }
 
 template std::vector<Fixture<2>> fixtures_of(const Scene&);

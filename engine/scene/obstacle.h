@@ -45,8 +45,8 @@ struct Obstacle {
 
 /// An opening of a partition: an interval, or a rectangle in 3D, along the other axes in order.
 struct Hole {
-  VecX from = VecX::Zero(1);
-  VecX to = VecX::Zero(1);
+  std::vector<double> from = {0.0};  ///< [D - 1]
+  std::vector<double> to = {0.0};    ///< [D - 1]
 
   bool operator==(const Hole&) const = default;
 };

@@ -27,19 +27,26 @@ Measured measured(const std::string& text, double burn_in, double duration, std:
 }
 
 /// Checks the hits of one particle on fixtures whose surfaces, and the room of its centre, are
-/// known. The motion is ergodic: the rate on a surface S is S v/(pi A) in 2D and S v/(4 V) in 3D.
+/// known, in 60 independent runs. The motion is ergodic: the rate on a surface S is S v/(pi A) in
+/// 2D and S v/(4 V) in 3D.
 void check_billiard(const std::string& text, const std::vector<double>& surfaces, double room,
                     int dimension) {
-  const Measured result = measured(text, 10.0, 40000.0, 3);
-  REQUIRE(result.fixtures.size() == surfaces.size());
-  const double v = std::sqrt(dimension * result.temperature.mean);
+  std::vector<Sample> lengths(surfaces.size());  // hits per length of the path
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const Measured result = measured(text, 10.0, 2000.0, seed);
+    REQUIRE(result.fixtures.size() == surfaces.size());
+    const double speed = std::sqrt(dimension * result.temperature.mean);
+    for (std::size_t k = 0; k < surfaces.size(); ++k) {
+      lengths[k].add(result.fixtures[k].hits.at(0).second.mean / speed);
+    }
+  }
   for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    CAPTURE(result.fixtures[k].name);
-    const Estimate& rate = result.fixtures[k].hits.at(0).second;
-    const double expected = surfaces[k] * v / ((dimension == 2 ? kPi : 4.0) * room);
-    CHECK(relative_error(rate) < 0.02);
-    CHECK(std::fabs(rate.mean - expected) < 4.0 * rate.standard_error);
-    MESSAGE("rate " << rate.mean << "(" << rate.standard_error << "), expected " << expected);
+    CAPTURE(k);
+    const double expected = surfaces[k] / ((dimension == 2 ? kPi : 4.0) * room);
+    const double mean = lengths[k].mean(), error = lengths[k].standard_error();
+    CHECK(error < 0.02 * mean);
+    CHECK(std::fabs(mean - expected) < 4.0 * error);
+    MESSAGE("hits per length " << mean << "(" << error << "), expected " << expected);
   }
 }
 
@@ -96,7 +103,7 @@ to = [4.5, 4.5, 4.5]
                  165.0 - covered, 3);
 }
 
-// A closed body feels no mean force in an elastic gas in equilibrium, whatever its shape: ten
+// A closed body feels no mean force in an elastic gas in equilibrium, whatever its shape: five
 // independent runs, and chi^2 of all components.
 TEST_CASE("Fixture physics: an elastic gas exerts no mean force on closed bodies") {
   const std::string bodies = R"(
@@ -117,7 +124,7 @@ radius = 1.5
         const double off = force.mean / force.standard_error;
         CHECK(std::fabs(off) < 5.0);
         // The pressure on one side alone would be about N T / A times the width: over 1.
-        CHECK(force.standard_error < 0.05);
+        CHECK(force.standard_error < 0.1);
         chi_squared += off * off;
         freedom += 1.0;
       }

@@ -52,13 +52,6 @@ const char* const kScenes[] = {
        walls.top.kind = "static")",
     R"(box.size = [17000, 3]
        particles = { count = 2500, restitution = 0.95 })",
-    R"(box.size = [70, 60]
-       particles = { area_fraction = 0.3, restitution = 0.95 }
-       walls.left.kind = "static"
-       walls.right.kind = "static"
-       obstacle = [{ kind = "ball", centre = [30, 1], radius = 7 },
-                   { kind = "polygon", corners = [[45, 20], [60, 25], [50, 40]], friction = 0.3 }]
-       partition = [{ axis = "y", position = 45, holes = [{ from = [20], to = [24] }] }])",
     R"(box.size = [90, 12, 10]
        particles = { volume_fraction = 0.3, restitution = 0.95 })",
     R"(box.size = [80, 13, 11]
@@ -66,6 +59,13 @@ const char* const kScenes[] = {
        gravity.acceleration = [0.1, -0.2, 0.05]
        walls.bottom = { kind = "sinusoidal", stroke = 0.5, frequency = 2.0 }
        walls.top = { kind = "thermal", temperature = 2.0 })",
+    R"(box.size = [70, 60]
+       particles = { area_fraction = 0.3, restitution = 0.95 }
+       walls.left.kind = "static"
+       walls.right.kind = "static"
+       obstacle = [{ kind = "ball", centre = [30, 1], radius = 7 },
+                   { kind = "polygon", corners = [[45, 20], [60, 25], [50, 40]], friction = 0.3 }]
+       partition = [{ axis = "y", position = 45, holes = [{ from = [20], to = [24] }] }])",
 };
 
 // A hash of all that observers see, in order.

@@ -55,7 +55,7 @@ Partition across(Axis axis, double position, const std::vector<Hole>& holes = {}
 }
 
 Hole hole_between(double from, double to) {
-  return {VecX::Constant(1, from), VecX::Constant(1, to)};
+  return {{from}, {to}};
 }
 
 View plain_view() {
@@ -364,7 +364,7 @@ TEST_CASE("Fixtures in space: bodies hide the spheres behind them, not those in 
 
 TEST_CASE("Fixtures in space: a partition tints the spheres behind it, and its holes are open") {
   Snapshot snapshot = empty_space();
-  const Hole hole{Vec2(15.0, 10.0), Vec2(25.0, 20.0)};
+  const Hole hole{{15.0, 10.0}, {25.0, 20.0}};
   const Partition plate = across(Axis::Z, 10.0, {hole});
   const auto changes = [&](const Vec3& sphere) {
     snapshot.partitions.clear();
@@ -476,7 +476,7 @@ TEST_CASE("Fixtures: OpenGL ES draws them as OpenGL does") {
   flat.partitions = {across(Axis::X, 23.0, {hole_between(5.0, 9.0)})};
   space.obstacles = {ball_at(Vec3(30.0, 20.0, 5.0), 5.0),
                      box_between(Vec3(5.0, 5.0, 2.0), Vec3(15.0, 15.0, 6.0))};
-  space.partitions = {across(Axis::Z, 10.0, {{Vec2(15.0, 10.0), Vec2(25.0, 20.0)}})};
+  space.partitions = {across(Axis::Z, 10.0, {Hole{{15.0, 10.0}, {25.0, 20.0}}})};
   Camera turned = kFixtureCamera;
   turned.orbit = {.z = 10.0, .azimuth = 30.0, .elevation = 20.0, .view_angle = 30.0};
   const auto pictures = [&](const Gl& gl) {
