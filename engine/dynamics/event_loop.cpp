@@ -168,8 +168,7 @@ void EventLoop<D>::load(const ParticleStates<D>& gas, const GrainArray& grains,
   prediction_.set_laws();
   gas_.fit(model_, count);
   plans_.resize(count);
-  near_.reset(subdomain, sizes, static_cast<double>(count));
-  if (near_.has_pieces()) near_.set_fixtures(model_);
+  near_.reset(model_, subdomain, sizes, static_cast<double>(count));
   std::vector<IntVec<D>> cells(count);
   for (std::size_t k = 0; k < count; ++k) {
     Vec<D> home;
@@ -298,7 +297,7 @@ void EventLoop<D>::plan_again() {
   Preparation work;
   if (plans_.empty()) {
     // After drop_plans() there is hardly any cell.
-    near_.reset(whole_box<D>(model_), grid_sizes<D>(model_, grains_),
+    near_.reset(model_, whole_box<D>(model_), grid_sizes<D>(model_, grains_),
                 static_cast<double>(gas_.particles.size()));
     place(work, {});
   } else if (near_.fit(plans_)) {

@@ -194,6 +194,7 @@ class EventLoop {
     Vec<D> normal;          // towards the particle
     const Wall& law;
     WallState motion;
+    Vec<D> point;  // of a fixture that is touched, at its place in the scene
   };
 
   void process(Event event);

@@ -210,7 +210,8 @@ void EventLoop<D>::bounce(std::uint32_t number, const Motion& at, const Surface&
                                      change_of(gas_, number, grain(number), at.r, at.v,
                                                spin(number), Impulse<D>{gain, spin_gain}),
                                      surface.normal,
-                                     surface.fixture};
+                                     surface.fixture,
+                                     surface.point};
     for (Observer<D>* observer : observers_) observer->on_wall(collision);
   }
   --until_base_moves_;
@@ -245,7 +246,7 @@ void EventLoop<D>::hit_wall(std::uint32_t number, int side) {
   }
   bounce(number, at,
          {side, 0, Boundary<D>::normal(side), model_.wall(side, grain(number).species),
-          boundary_.wall(side, now_)});
+          boundary_.wall(side, now_), Vec<D>::Zero()});
 }
 
 // The position is set to that of contact, as at a fixed wall.
@@ -260,7 +261,8 @@ void EventLoop<D>::hit_fixture(std::uint32_t number, std::uint32_t piece, const 
   at.r += beyond * normal;
   bounce(number, at,
          {WallCollision<D>::kNoSide, fixture, normal,
-          model_.fixtures[fixture].law_for(grain(number).species), {}});
+          model_.fixtures[fixture].law_for(grain(number).species), {},
+          place - (grain(number).radius - beyond) * normal});
 }
 
 // The total momentum stays: every particle loses the same velocity.

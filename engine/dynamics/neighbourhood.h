@@ -44,11 +44,12 @@ class Neighbourhood {
   }
 
   /// Empties the neighbourhood and lays cells for a number of particles over a subdomain. `sizes`
-  /// are those of their grid_sizes().
-  void reset(const Subdomain<D>& subdomain, const GridSizes& sizes, double particles) {
+  /// are those of their grid_sizes(), and the fixtures those of `model`.
+  void reset(const Model<D>& model, const Subdomain<D>& subdomain, const GridSizes& sizes,
+             double particles) {
     lists_.reset();
     grid_.reset(subdomain, sizes, CellGrid<D>::kCellsPerParticle * particles);
-    pieces_.lay(grid_);
+    set_fixtures(model);
   }
 
   /// Whether a particle reads several lists, see visit_wide().
@@ -104,6 +105,7 @@ class Neighbourhood {
 
   /// Takes the changed fixtures of a model.
   void set_fixtures(const Model<D>& model) {
+    if (model.fixtures.empty()) return;
     pieces_ = PieceLists<D>(model);
     pieces_.lay(grid_);
   }

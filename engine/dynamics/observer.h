@@ -53,6 +53,7 @@ struct WallCollision {
   ParticleChange<D> particle;
   Vec<D> normal = Vec<D>::Zero();  ///< unit vector from the wall to the particle
   std::uint32_t fixture = 0;       ///< number of the fixture in the model, without a side
+  Vec<D> point = Vec<D>::Zero();   ///< of a fixture that is touched, at its place in the scene
 
   /// Whether it is with a wall of the box.
   bool at_wall() const { return side != kNoSide; }

@@ -119,7 +119,7 @@ class Insertion : public RandomInsertion<D>::Work {
   bool place_at(const Vec<D>& point, const Voxel& voxel) {
     const auto offset = [&](const Vec<D>& centre) -> Vec<D> { return (centre - point).cwiseAbs(); };
     if (any_particle_within(voxel, offset)) return false;
-    if (fixtures_.depth(point, 0.5 * room_.diameter, 0) > 0.0) return false;
+    if (fixtures_.depth(point, 0.5 * room_.diameter, kSeesAll) > 0.0) return false;
     centres_[cell_of(voxel)] = static_cast<std::uint32_t>(placed_.size());
     placed_.push_back(point);
     return true;
@@ -137,7 +137,7 @@ class Insertion : public RandomInsertion<D>::Work {
       for (int k = 0; k < D; ++k) middle[k] = low_[k] + (voxel[k] + 0.5) * widths_[k];
       // A particle covers the voxel if it covers the corner farthest from its centre. So does a
       // fixture if it is deeper at the middle than the corners are away.
-      if (fixtures_.depth(middle, 0.5 * room_.diameter, 0) > half.norm()) return true;
+      if (fixtures_.depth(middle, 0.5 * room_.diameter, kSeesAll) > half.norm()) return true;
       return any_particle_within(voxel, [&](const Vec<D>& centre) -> Vec<D> {
         return (centre - middle).cwiseAbs() + half;
       });
@@ -227,7 +227,7 @@ class SparseInsertion : public RandomInsertion<D>::Work {
       for (int axis = 0; axis < D; ++axis) {
         point[axis] = low(axis) + random.uniform() * (room_.box[axis] - 2.0 * low(axis));
       }
-      failures_ = place_at(point) ? 0 : failures_ + 1;
+      failures_ = place_at(point) || !fixtures_.any() ? 0 : failures_ + 1;
     }
     return true;
   }
@@ -252,7 +252,7 @@ class SparseInsertion : public RandomInsertion<D>::Work {
   double low(int axis) const { return room_.walled[axis] ? 0.5 * room_.diameter : 0.0; }
 
   bool place_at(const Vec<D>& point) {
-    if (fixtures_.depth(point, 0.5 * room_.diameter, 0) > 0.0) return false;
+    if (fixtures_.depth(point, 0.5 * room_.diameter, kSeesAll) > 0.0) return false;
     if (near_.any_within(point, room_.diameter)) return false;
     near_.add(point);
     return true;

@@ -211,7 +211,7 @@ static std::vector<Vec<D>> lattice_sites(const Room<D>& room, int count,
     if (sites.empty()) sites = primitive_lattice(room, wanted);
     if (sites.empty() || !fixtures.any()) return sites;
     std::erase_if(sites, [&](const Vec<D>& site) {
-      return fixtures.depth(site, 0.5 * room.diameter, 0) > 0.0;
+      return fixtures.depth(site, 0.5 * room.diameter, kSeesAll) > 0.0;
     });
     if (static_cast<int>(sites.size()) >= count) return sites;
   }
@@ -269,7 +269,7 @@ class StartWork : public StartMaker::Work {
     grains_ = grains_of(scene_);
     if (start.layout != Layout::Random) {
       positions_ = lattice_positions(room_, count(), seed_, fixtures_);
-    } else if (!have_equal_radii(grains_)) {
+    } else if (!have_equal_radii(grains_) || fixtures_.differ()) {
       begin_removal();
     } else if (fraction() <= kInsertionFraction<D>) {
       insertion_.emplace(room_, count(), random_, fixtures_);

@@ -5,31 +5,40 @@
 
 namespace clatter {
 
-// Whether a ray along x from a position crosses a segment. Of two segments that meet on the ray it
-// crosses one if they are on both sides of the ray, and none or both otherwise.
-static bool crosses(const Piece<2>& plate, const Vec2& position) {
-  const Vec2 a = plate.corner - position;
-  const Vec2 b = a + plate.lengths[0] * plate.directions[0];
+// Whether a ray along x from a position crosses the segment between two corners. Of two segments that
+// meet on the ray it crosses one if they are on both sides of the ray, and none or both otherwise.
+static bool crosses(const Vec2& first, const Vec2& second, const Vec2& position) {
+  const Vec2 a = first - position, b = second - position;
   if ((a.y() > 0.0) == (b.y() > 0.0)) return false;
   return a.x() + (b.x() - a.x()) * (a.y() / (a.y() - b.y())) > 0.0;
 }
 
-// The same for the rectangles of a box, whose edges are along the axes.
-static bool crosses(const Piece<3>& plate, const Vec<3>& position) {
-  if (plate.normal.x() == 0.0 || plate.corner.x() <= position.x()) return false;
-  const Vec<3> way = plate.foot(position) - position;
-  return way.y() == 0.0 && way.z() == 0.0;
+// The plates of a polygon come first, in order: each ends at the corner of the next.
+static bool is_inside(const Fixture<2>& polygon, const Vec2& position) {
+  bool inside = false;
+  const std::size_t count = polygon.pieces.size() / 2;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vec2& next = polygon.pieces[(k + 1) % count].corner;
+    inside = inside != crosses(polygon.pieces[k].corner, next, position);
+  }
+  return inside;
+}
+
+// The corners of a box come last, the lowest first.
+static bool is_inside(const Fixture<3>& box, const Vec<3>& position) {
+  if (box.pieces.empty()) return false;
+  const Vec<3>& low = box.pieces[box.pieces.size() - 8].corner;
+  const Vec<3>& high = box.pieces.back().corner;
+  return (position.array() > low.array()).all() && (position.array() < high.array()).all();
 }
 
 template <int D>
 double distance_from(const Fixture<D>& fixture, const Vec<D>& position) {
   double distance = std::numeric_limits<double>::infinity();
-  bool inside = false;
   for (const Piece<D>& piece : fixture.pieces) {
     distance = std::min(distance, piece.distance(position));
-    if (fixture.solid && piece.is_plate()) inside = inside != crosses(piece, position);
   }
-  return inside ? -distance : distance;
+  return fixture.solid && is_inside(fixture, position) ? -distance : distance;
 }
 
 template <int D>
@@ -47,13 +56,24 @@ FixtureImages<D>::FixtureImages(const std::vector<Fixture<D>>& fixtures, const D
     }
     IntVec<D> image = -most;
     while (image[D - 1] <= most[D - 1]) {
-      const Vec<D> shift = origin - domain.shift(image.template cast<double>());
-      images_.push_back({k, shift, low - shift, high - shift});
+      // Particles are narrower than the box.
+      const Vec<D> moved = domain.shift(image.template cast<double>());
+      const bool near = ((low + moved).array() < 1.5 * domain.box.array()).all() &&
+                        ((high + moved).array() > -0.5 * domain.box.array()).all();
+      const Vec<D> shift = origin - moved;
+      if (near || most.isZero()) images_.push_back({k, shift, low - shift, high - shift});
       for (int axis = 0; ++image[axis] > most[axis] && axis < D - 1; ++axis) {
         image[axis] = -most[axis];
       }
     }
   }
+}
+
+template <int D>
+bool FixtureImages<D>::differ() const {
+  return std::ranges::any_of(fixtures_, [](const Fixture<D>& fixture) {
+    return std::ranges::find(fixture.passes, true) != fixture.passes.end();
+  });
 }
 
 template <int D>

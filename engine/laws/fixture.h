@@ -24,7 +24,7 @@ template <int D>
 struct Fixture {
   std::string name;                ///< for results and messages
   std::vector<Piece<D>> pieces;    ///< all that particles touch
-  bool solid = false;              ///< whether its plates enclose a room
+  bool solid = false;              ///< whether its pieces are those of a polygon or a box
   std::optional<Vec<D>> centre;    ///< about which torques are; absent: none
   std::optional<AxisPlane> plane;  ///< of a partition
   Wall law;                        ///< static, driven or thermal
@@ -40,8 +40,13 @@ struct Fixture {
     return pieces == other.pieces && passes == other.passes;
   }
   /// Whether a species does not see it.
-  bool lets_pass(std::uint32_t species) const { return !passes.empty() && passes[species]; }
+  bool lets_pass(std::uint32_t species) const {
+    return species < passes.size() && passes[species];
+  }
 };
+
+/// In place of a species: one that sees all fixtures.
+inline constexpr std::uint32_t kSeesAll = 0xffffffffu;
 
 /// Distance of a position from the surface of a fixture, negative inside.
 template <int D>
@@ -57,6 +62,8 @@ class FixtureImages {
 
   /// Whether there are any.
   bool any() const { return !images_.empty(); }
+  /// Whether a fixture does not exist for some species.
+  bool differ() const;
   /// The number of the fixture that a particle at a position in the box overlaps most; absent: none.
   std::optional<std::size_t> deepest(const Vec<D>& position, double radius,
                                      std::uint32_t species) const;

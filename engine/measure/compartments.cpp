@@ -15,7 +15,12 @@ std::optional<AxisPlane> compartment_plane(const Model<D>& model) {
 }
 
 template <int D>
-void CompartmentSeries::sample(const Simulation<D>& simulation, const AxisPlane& plane) {
+void CompartmentSeries::sample(const Simulation<D>& simulation, const AxisPlane& plane,
+                               std::size_t number) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  for (auto* series : {&share_left, &temperature_left, &temperature_right}) {
+    series->resize(number, kNone);
+  }
   const double now = simulation.base_time();
   const Vec<D>& gravity = simulation.model().gravity;
   const Domain<D> domain = simulation.model().domain();
@@ -28,7 +33,6 @@ void CompartmentSeries::sample(const Simulation<D>& simulation, const AxisPlane&
   });
   const double all = counts[0] + counts[1];
   share_left.push_back(all > 0.0 ? counts[0] / all : 0.0);
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   temperature_left.push_back(counts[0] > 0.0 ? squares[0] / (D * counts[0]) : kNone);
   temperature_right.push_back(counts[1] > 0.0 ? squares[1] / (D * counts[1]) : kNone);
 }
@@ -45,6 +49,7 @@ CompartmentMeans compartment_means(const CompartmentSeries& series, std::size_t 
     return mean_estimate(known);
   };
   for (std::size_t k = first; k < series.share_left.size(); ++k) {
+    if (std::isnan(series.share_left[k])) continue;
     shares.push_back(series.share_left[k]);
     imbalances.push_back(std::fabs(2.0 * series.share_left[k] - 1.0));
   }
@@ -62,7 +67,7 @@ CompartmentMeans compartment_means(const CompartmentSeries& series, std::size_t 
 
 template std::optional<AxisPlane> compartment_plane(const Model<2>&);
 template std::optional<AxisPlane> compartment_plane(const Model<3>&);
-template void CompartmentSeries::sample(const Simulation<2>&, const AxisPlane&);
-template void CompartmentSeries::sample(const Simulation<3>&, const AxisPlane&);
+template void CompartmentSeries::sample(const Simulation<2>&, const AxisPlane&, std::size_t);
+template void CompartmentSeries::sample(const Simulation<3>&, const AxisPlane&, std::size_t);
 
 }  // namespace clatter

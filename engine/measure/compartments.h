@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -19,9 +20,10 @@ struct CompartmentSeries {
   std::vector<double> temperature_left;   ///< (1/D N) sum m v^2 of the particles there; NaN: none
   std::vector<double> temperature_right;  ///< the same of the others
 
-  /// Adds the state of a simulation now.
+  /// Adds the state of a simulation now, as sample number `number`. Former ones without compartments
+  /// are NaN.
   template <int D>
-  void sample(const Simulation<D>& simulation, const AxisPlane& plane);
+  void sample(const Simulation<D>& simulation, const AxisPlane& plane, std::size_t number);
 };
 
 /// Visits all members, in order, for checkpoints.

@@ -28,9 +28,7 @@ void FixtureTotals<D>::on_wall(const WallCollision<D>& collision) {
   const Model<D>& model = simulation_.model();
   const auto& centre = model.fixtures[collision.fixture].centre;
   if (!centre) return;
-  const Vec<D> arm =
-      model.domain().shortest(particle.position - collision.branch() - *centre);
-  sums.angular_impulse += cross<D>(arm, impulse);
+  sums.angular_impulse += cross<D>(collision.point - *centre, impulse);
 }
 
 template <int D>

@@ -208,8 +208,7 @@ std::string Measurement<D>::save() {
 template <int D>
 template <class Archive>
 void Measurement<D>::visit_series(Archive& io) {
-  io(totals_, series_start_, series_);
-  if (compartment_plane(simulation_.model())) io(compartments_);
+  io(totals_, series_start_, series_, compartments_);
   fit_series();
 }
 
@@ -273,7 +272,7 @@ void Measurement<D>::sample(double time) {
     series_.spin_temperature.push_back(per_component(simulation_.spin_energy(), kSpinSize<D>));
   }
   if (const auto plane = compartment_plane(simulation_.model())) {
-    compartments_.sample(simulation_, *plane);
+    compartments_.sample(simulation_, *plane, series_.times.size() - 1);
   }
 }
 
@@ -470,7 +469,7 @@ Measured Measurement<D>::means() const {
     measured.fixtures = fixture_means<D>(fixture_windows_, model);
     const auto first = static_cast<std::size_t>(
         std::ranges::lower_bound(series_.times, averages_start_) - series_.times.begin());
-    if (first < compartments_.share_left.size()) {
+    if (first < compartments_.share_left.size() && compartment_plane(model)) {
       measured.compartments = compartment_means(compartments_, first, count);
     }
   }

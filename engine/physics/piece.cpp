@@ -50,6 +50,7 @@ std::pair<Vec<D>, Vec<D>> Piece<D>::bounds() const {
 template <int D>
 Piece<D> ball_piece(const Vec<D>& centre, double radius) {
   Piece<D> ball;
+  ball.directions.fill(Vec<D>::Zero());
   ball.corner = centre;
   ball.radius = radius;
   return ball;
@@ -58,6 +59,7 @@ Piece<D> ball_piece(const Vec<D>& centre, double radius) {
 template <int D>
 Piece<D> flat_piece(const Vec<D>& corner, const std::vector<Vec<D>>& edges) {
   Piece<D> piece;
+  piece.directions.fill(Vec<D>::Zero());
   piece.corner = corner;
   piece.rank = static_cast<int>(edges.size());
   for (std::size_t k = 0; k < edges.size(); ++k) {
@@ -147,17 +149,28 @@ FallTimes fall_times(const Vec<D>& x, const Vec<D>& v, const Vec<D>& g, double d
   return falls;
 }
 
+// Whether the foot of a position relative to the corner is on a piece. `rounding` is that of the
+// position: at a seam one of two plates answers at least.
+template <int D>
+static bool has_foot(const Piece<D>& piece, const Vec<D>& place, double rounding) {
+  for (int k = 0; k < piece.rank; ++k) {
+    const double along = piece.directions[k].dot(place);
+    if (!(along >= -rounding && along <= piece.lengths[k] + rounding)) return false;
+  }
+  return true;
+}
+
 // The time at which a particle reaches one face of a plate and its foot is on the plate. `side` is
 // +1 or -1. A particle that is farther behind the face than by rounding may be beside the plate:
 // it first rises through the plane and then falls back.
 template <int D>
 static double face_contact_time(const Piece<D>& plate, const Vec<D>& x, const Vec<D>& v,
-                                const Vec<D>& g, double side, double distance) {
+                                const Vec<D>& g, double side, double distance, double rounding) {
   constexpr double kSlit = 1e-9;  // of the distance
   const double gap = side * plate.normal.dot(x) - distance;
   double speed = side * plate.normal.dot(v);
   const double acceleration = side * plate.normal.dot(g);
-  const bool behind = gap < -kSlit * distance;
+  const bool behind = gap < -std::max(kSlit * distance, rounding);
   if (behind && !(speed > 0.0 && acceleration < 0.0)) return kNever;
   if (gap <= 0.0 && std::fabs(speed) <= kApproachRounding * v.norm()) speed = 0.0;
   double time;
@@ -169,12 +182,7 @@ static double face_contact_time(const Piece<D>& plate, const Vec<D>& x, const Ve
     time = fall_time(gap, speed, acceleration);
   }
   if (time == kNever) return kNever;
-  const Vec<D> place = x + (v + g * (0.5 * time)) * time;
-  for (int k = 0; k < plate.rank; ++k) {
-    const double along = plate.directions[k].dot(place);
-    if (!(along >= 0.0 && along <= plate.lengths[k])) return kNever;
-  }
-  return time;
+  return has_foot<D>(plate, x + (v + g * (0.5 * time)) * time, rounding) ? time : kNever;
 }
 
 template <int D>
@@ -182,11 +190,12 @@ double piece_contact_time(const Piece<D>& piece, const Flight<D>& flight, const 
                           double radius, const Vec<D>& gravity) {
   const Vec<D> start = (flight.r + shift) - piece.corner;
   const double distance = piece.radius + radius;
+  const double rounding = kApproachRounding * (flight.r.norm() + piece.corner.norm());
   if (piece.is_plate()) {
-    const double after =
-        std::min(face_contact_time<D>(piece, start, flight.v, gravity, 1.0, distance),
-                 face_contact_time<D>(piece, start, flight.v, gravity, -1.0, distance));
-    return flight.time + after;
+    const auto after = [&](double side) {
+      return face_contact_time<D>(piece, start, flight.v, gravity, side, distance, rounding);
+    };
+    return flight.time + std::min(after(1.0), after(-1.0));
   }
   // The parts of all vectors across the edges.
   Vec<D> x = start, v = flight.v, g = gravity;
@@ -196,12 +205,7 @@ double piece_contact_time(const Piece<D>& piece, const Flight<D>& flight, const 
     }
   }
   const auto on_piece = [&](double time) {
-    const Vec<D> place = start + (flight.v + gravity * (0.5 * time)) * time;
-    for (int k = 0; k < piece.rank; ++k) {
-      const double along = piece.directions[k].dot(place);
-      if (!(along >= 0.0 && along <= piece.lengths[k])) return false;
-    }
-    return true;
+    return has_foot<D>(piece, start + (flight.v + gravity * (0.5 * time)) * time, rounding);
   };
   if ((g.array() != 0.0).any()) {
     const FallTimes falls = fall_times<D>(x, v, g, distance);

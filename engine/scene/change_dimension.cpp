@@ -58,27 +58,37 @@ VecX with_depth(const VecX& place, double depth) {
 
 // Gives a ball the middle of the depth, and a box all of it.
 void change_obstacle(Obstacle& obstacle, const VecX& ratio, double depth, bool flat) {
+  constexpr double kShare = 0.45;  // of the depth: balls do not reach their images
   for (VecX* place : {&obstacle.centre, &obstacle.from, &obstacle.to}) {
     *place = VecX(place->head<2>().cwiseProduct(ratio));
   }
   obstacle.radius *= ratio.minCoeff();
   if (flat) return;
+  obstacle.radius = std::min(obstacle.radius, kShare * depth);
   obstacle.centre = with_depth(obstacle.centre, 0.5 * depth);
   obstacle.from = with_depth(obstacle.from, 0.0);
   obstacle.to = with_depth(obstacle.to, depth);
 }
 
-// Gives holes all of the depth.
-void change_partition(Partition& partition, const VecX& ratio, double depth, bool flat) {
+// Gives holes all of the depth. Without a depth holes may meet; then the first one stays.
+void change_partition(Partition& partition, const VecX& ratio, const VecX& box) {
   const int across = static_cast<int>(partition.axis), along = 1 - across;
   partition.position *= ratio[across];
-  for (Hole& hole : partition.holes) {
+  std::vector<Hole> holes;
+  for (Hole hole : partition.holes) {
     hole.from = {hole.from[0] * ratio[along]};
-    hole.to = {hole.to[0] * ratio[along]};
-    if (flat) continue;
-    hole.from.push_back(0.0);
-    hole.to.push_back(depth);
+    hole.to = {std::min(hole.to[0] * ratio[along], box[along])};
+    const bool meets = std::ranges::any_of(holes, [&](const Hole& other) {
+      return hole.from[0] <= other.to[0] && other.from[0] <= hole.to[0];
+    });
+    if (meets) continue;
+    if (box.size() == 3) {
+      hole.from.push_back(0.0);
+      hole.to.push_back(box[2]);
+    }
+    holes.push_back(hole);
   }
+  partition.holes = holes;
 }
 
 // Gives fixtures their places in the changed box. Fixtures that have none are removed; then all
@@ -103,7 +113,7 @@ bool change_fixtures(Scene& made, const VecX& former_box) {
       return one.kind == ObstacleKind::Polygon;
     });
   }
-  for (Partition& one : made.partitions) change_partition(one, ratio, depth, flat);
+  for (Partition& one : made.partitions) change_partition(one, ratio, made.box);
   return removed > 0;
 }
 

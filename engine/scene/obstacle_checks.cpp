@@ -24,6 +24,16 @@ class Item {
     const Place found = place_of(*node_.as_table(), key, file_);
     return found.line > 0 || from_override(found) ? found : place_of(node_, file_);
   }
+  /// Throws if its table of species names one that the scene lacks.
+  void check_species(const std::vector<std::string>& known) const {
+    const toml::table* tables = (*node_.as_table())["species"].as_table();
+    if (!tables) return;
+    for (const auto& [name, table] : *tables) {
+      if (std::ranges::find(known, name.str()) == known.end()) {
+        refuse_species(place("species"), name.str(), known);
+      }
+    }
+  }
   [[noreturn]] void refuse(std::string_view key, const std::string& problem,
                            const std::string& advice) const {
     throw UserError(place(key), problem, advice);
@@ -40,10 +50,14 @@ std::string point_text(const VecX& point) {
   return text + ')';
 }
 
-/// Throws if a body reaches no point of the box.
+/// Throws if a body reaches no point of the box, or overlaps its own image.
 void check_reach(const Scene& scene, const Item& item, const char* key, const VecX& low,
                  const VecX& high) {
   for (int axis = 0; axis < scene.dimension(); ++axis) {
+    if (scene.periodic(axis) && high[axis] - low[axis] > scene.box[axis]) {
+      item.refuse(key, "the obstacle overlaps its own image along a periodic axis",
+                  "make it shorter than the side " + number_text(scene.box[axis]));
+    }
     if (low[axis] < scene.box[axis] && high[axis] > 0.0) continue;
     item.refuse(key,
                 "the obstacle is outside of the box: along " +
@@ -106,11 +120,6 @@ void check_obstacle(const Scene& scene, const Obstacle& obstacle, const Item& it
     case ObstacleKind::Ball: {
       const VecX reach = VecX::Constant(scene.dimension(), obstacle.radius);
       check_reach(scene, item, "centre", obstacle.centre - reach, obstacle.centre + reach);
-      for (int axis = 0; axis < scene.dimension(); ++axis) {
-        if (!scene.periodic(axis) || 2.0 * obstacle.radius < scene.box[axis]) continue;
-        item.refuse("radius", "the ball touches its own image along a periodic axis",
-                    "choose a radius below " + number_text(0.5 * scene.box[axis]));
-      }
       break;
     }
     case ObstacleKind::Polygon: {
@@ -148,6 +157,11 @@ void check_partition(const Scene& scene, const Partition& partition, const Item&
   if (!(partition.position > 0.0 && partition.position < scene.box[across])) {
     item.refuse("position", "the partition is not inside the box",
                 "place it between 0 and " + number_text(scene.box[across]));
+  }
+  constexpr std::size_t kMostHoles = 200;
+  if (partition.holes.size() > kMostHoles) {
+    item.refuse("holes", "the partition has " + counted(partition.holes.size(), "hole"),
+                "give at most " + std::to_string(kMostHoles));
   }
   for (std::size_t i = 0; i < partition.holes.size(); ++i) {
     const Hole& hole = partition.holes[i];
@@ -208,11 +222,13 @@ void check_fixtures(const Scene& scene, const toml::table& root, const std::stri
   for (std::size_t k = 0; k < scene.obstacles.size(); ++k) {
     const Item item(root, "obstacle", k, file);
     check_name(scene.obstacles[k].name, obstacle_name(scene.obstacles[k], k), item);
+    item.check_species(names_of(scene.species));
     check_obstacle(scene, scene.obstacles[k], item);
   }
   for (std::size_t k = 0; k < scene.partitions.size(); ++k) {
     const Item item(root, "partition", k, file);
     check_name(scene.partitions[k].name, partition_name(scene.partitions[k], k), item);
+    item.check_species(names_of(scene.species));
     check_partition(scene, scene.partitions[k], item);
   }
   if (!scene.has_fixtures()) return;

@@ -49,6 +49,22 @@ static void require_same_grains(const Scene& before, const Scene& now) {
                   "another inertia would change the energy: start again");
 }
 
+// Particles of a run know fixtures by their numbers.
+static void require_same_fixtures(const Scene& before, const Scene& now) {
+  const bool same =
+      std::ranges::equal(before.obstacles, now.obstacles,
+                         [](const Obstacle& a, const Obstacle& b) {
+                           return a.name == b.name && a.kind == b.kind;
+                         }) &&
+      std::ranges::equal(before.partitions, now.partitions,
+                         [](const Partition& a, const Partition& b) {
+                           return a.name == b.name && a.axis == b.axis;
+                         });
+  if (same) return;
+  throw UserError({}, "a name, kind or axis of a fixture cannot change while the gas moves",
+                  "give the scene a second fixture with present = false, and exchange them");
+}
+
 static void require_same_sides(const Scene& before, const Scene& now) {
   for (int axis = 0; axis < before.dimension(); ++axis) {
     if (before.periodic(axis) == now.periodic(axis)) continue;
@@ -201,6 +217,7 @@ void Schedule::change_to(const std::vector<Override>& settings) {
   Scene changed = with_settings(laws_, settings);
   require_same_sides(laws_, changed);
   require_same_grains(laws_, changed);
+  require_same_fixtures(laws_, changed);
   laws_ = std::move(changed);
 }
 

@@ -116,7 +116,7 @@ TEST_CASE("Fixture keys: mistakes have a place and a way out") {
   refused("[[obstacle]]\nkind = \"ball\"\nradius = 1\n", "3:1", "centre");
   refused("[[obstacle]]\nkind = \"ball\"\ncentre = [50, 5]\nradius = 1\n", "5:1", "outside");
   refused("[[obstacle]]\nkind = \"ball\"\ncentre = [5, 5]\nradius = 0\n", "6:1", "radius");
-  refused("[[obstacle]]\nkind = \"ball\"\ncentre = [5, 5]\nradius = 11\n", "6:1", "own image");
+  refused("[[obstacle]]\nkind = \"ball\"\ncentre = [5, 5]\nradius = 11\n", "5:1", "own image");
   refused("[[obstacle]]\nkind = \"cone\"\n", "4:1", "ball");
   refused("[[obstacle]]\nkind = \"polygon\"\ncorners = [[1, 1], [2, 2]]\n", "5:1", "corner");
   refused("[[obstacle]]\nkind = \"polygon\"\ncorners = [[1, 1], [5, 5], [5, 1], [1, 5]]\n", "5:1",
