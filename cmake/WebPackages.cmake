@@ -119,6 +119,6 @@ add_library(PkgConfig::SPNG ALIAS web_spng)
 file(CREATE_LINK ${imgui} ${web_headers}/imgui SYMBOLIC)
 compiled_library(web_imgui ${imgui} ${imgui}/imgui.cpp ${imgui}/imgui_draw.cpp
                  ${imgui}/imgui_tables.cpp ${imgui}/imgui_widgets.cpp)
-target_compile_options(web_imgui PRIVATE -Os) # small beside the time of the gas
+target_compile_options(web_imgui PRIVATE -Oz) # small beside the time of the gas
 target_include_directories(web_imgui SYSTEM PUBLIC ${web_headers})
 add_library(imgui::imgui ALIAS web_imgui)

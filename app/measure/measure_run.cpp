@@ -219,9 +219,9 @@ void write_results(const MeasureOptions& options, const nlohmann::ordered_json& 
   if (!options.csv.empty()) attempt([&] { write_tables(options.csv, measured, stop); });
   if (!options.vtk.empty()) {
     attempt([&] {
-      const std::string origin =
-          result.at("program").get<std::string>() + ", seed " + result.at("seed").dump() +
-          ", state hash " + result.at("state_hash").get<std::string>();
+      const std::string origin = result.at("program").get<std::string>() + ", seed " +
+                                 result.at("seed").dump() + ", state hash " +
+                                 result.at("state_hash").get<std::string>();
       write_vtk(options.vtk, measured, origin, stop);
       write_vtk_fixtures(options.vtk, run.simulation().model().fixtures, origin);
     });

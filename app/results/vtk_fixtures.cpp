@@ -110,8 +110,7 @@ std::string fixture_shapes(const std::vector<Fixture<D>>& fixtures, const std::s
       shapes.places.size() / 3, shapes.lines.ends.size(), shapes.polygons.ends.size());
   xml += "      <CellData Scalars=\"fixture\">\n" + arrays.add("fixture", 1, numbers) +
          "      </CellData>\n";
-  xml += "      <Points>\n" + arrays.add("positions", 3, shapes.places, "a") +
-         "      </Points>\n";
+  xml += "      <Points>\n" + arrays.add("positions", 3, shapes.places, "a") + "      </Points>\n";
   xml += shapes.lines.xml("Lines", arrays) + shapes.polygons.xml("Polys", arrays);
   return xml + "    </Piece>\n  </PolyData>\n" + arrays.appended();
 }

@@ -212,22 +212,23 @@ replicas = 8
 "particles.restitution" = {{ from = 0.65, to = 0.95, count = 13 }}
 "particles.count" = {}
 )",
-      disks ? ""
-            : R"("box.size" = [20.0, 24.0, 3.0]
+      disks ? "" : R"("box.size" = [20.0, 24.0, 3.0]
 "gravity.acceleration" = [0.0, -1.0, 0.0]
 "partition.wall.holes" = [{ from = [6.0, 0.0], to = [24.0, 3.0] }]
 "measure.cells" = [1, 1, 1]
 )",
       disks ? "[20, 40, 60]" : "[60, 120, 180]");
-  study.charts = {{"imbalance",
-                   {.x = "particles.restitution",
-                    .y = "compartments.imbalance",
-                    .by = "particles.count",
-                    .y_label = "|N_left - N_right|/N",
-                    .title = "Maxwell's demon: a granular gas splits by itself",
-                    .caption = "Two compartments over a driven floor, with an opening between them. "
-                               "Below a restitution one of them takes most grains. Fewer grains lose less energy, "
-                               "and need a lower one."}}};
+  study.charts = {
+      {"imbalance",
+       {.x = "particles.restitution",
+        .y = "compartments.imbalance",
+        .by = "particles.count",
+        .y_label = "|N_left - N_right|/N",
+        .title = "Maxwell's demon: a granular gas splits by itself",
+        .caption =
+            "Two compartments over a driven floor, with an opening between them. "
+            "Below a restitution one of them takes most grains. Fewer grains lose less energy, "
+            "and need a lower one."}}};
   return study;
 }
 

@@ -22,8 +22,8 @@ namespace clatter {
 template <int D>
 std::array<WallMotion, 2 * D> wall_motions(const Model<D>& model);
 
-/// Whether flights continue under other laws: gravity, the motions of all walls and the shapes of all
-/// fixtures are the same.
+/// Whether flights continue under other laws: gravity, the motions of all walls and the shapes of
+/// all fixtures are the same.
 template <int D>
 bool keeps_flights(const Model<D>& before, const Model<D>& after);
 

@@ -128,7 +128,8 @@ PhysicalStop divergence(const Model<D>& model, double time, double temperature, 
 template <int D>
 PhysicalStop crowding(const Model<D>& model, const Watchdog& watchdog, double time) {
   const auto [particle, partner] = watchdog.busiest_pair();
-  return PhysicalStop("particle " + std::to_string(particle) + " and " + partner_name<D>(model, partner) +
+  return PhysicalStop("particle " + std::to_string(particle) + " and " +
+                      partner_name<D>(model, partner) +
                       " have no room between them at t = " + rounded(time) +
                       ", and collide without end; enlarge the box, or remove particles");
 }
@@ -136,8 +137,8 @@ PhysicalStop crowding(const Model<D>& model, const Watchdog& watchdog, double ti
 template <int D>
 static const Wall* thermal_wall(const Model<D>& model, std::uint32_t partner) {
   if (partner < kPiece) return nullptr;
-  const Wall& law = partner >= kWall ? *model.walls[partner - kWall]
-                                     : fixture_of(model, partner - kPiece).law;
+  const Wall& law =
+      partner >= kWall ? *model.walls[partner - kWall] : fixture_of(model, partner - kPiece).law;
   return law.kind == WallKind::Thermal ? &law : nullptr;
 }
 
@@ -154,8 +155,7 @@ PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double 
   // A thermal wall ignores t_c.
   if (const Wall* wall = thermal_wall<D>(model, partner)) {
     return PhysicalStop(what + ", because the wall emits at temperature " +
-                        rounded(wall->temperature) +
-                        "; raise this temperature");
+                        rounded(wall->temperature) + "; raise this temperature");
   }
   const double helpful = helpful_contact_time<D>(model, watchdog);
   if (helpful == 0.0) {

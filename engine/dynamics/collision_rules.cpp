@@ -66,9 +66,9 @@ Departure<D> wall_outcome(const Model<D>& model, const Wall& spec, const Vec<D>&
   if (elastic) law = {.restitution = std::max(law.restitution, 1.0)};
   Departure<D> departure;
   departure.velocity =
-      spec.moves() ? reflect_moving<D>(arrival.velocity, normal, law.restitution, wall.velocity)
-                   : reflect<D>(arrival.velocity, normal, law.restitution, spec.drive_speed,
-                                wall.velocity);
+      spec.moves()
+          ? reflect_moving<D>(arrival.velocity, normal, law.restitution, wall.velocity)
+          : reflect<D>(arrival.velocity, normal, law.restitution, spec.drive_speed, wall.velocity);
   if (elastic) {
     const double approach = std::fabs(arrival.velocity.dot(normal) - wall.velocity);
     const double least = wall.velocity + least_rebound<D>(model, spec, normal, wall, approach);
@@ -86,9 +86,9 @@ template PairOutcome<2> pair_outcome<2>(const ContactLaw&, const Partners&, cons
                                         const Vec<2>&, const Spin<2>&, bool);
 template PairOutcome<3> pair_outcome<3>(const ContactLaw&, const Partners&, const Vec<3>&,
                                         const Vec<3>&, const Spin<3>&, bool);
-template Departure<2> wall_outcome<2>(const Model<2>&, const Wall&, const Vec<2>&,
-                                      const WallState&, const Arrival<2>&, bool);
-template Departure<3> wall_outcome<3>(const Model<3>&, const Wall&, const Vec<3>&,
-                                      const WallState&, const Arrival<3>&, bool);
+template Departure<2> wall_outcome<2>(const Model<2>&, const Wall&, const Vec<2>&, const WallState&,
+                                      const Arrival<2>&, bool);
+template Departure<3> wall_outcome<3>(const Model<3>&, const Wall&, const Vec<3>&, const WallState&,
+                                      const Arrival<3>&, bool);
 
 }  // namespace clatter

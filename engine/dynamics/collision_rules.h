@@ -42,8 +42,8 @@ struct Departure {
 };
 
 /// Departure of a particle that touches a wall or a fixture with a law. `normal` is the unit vector
-/// at the contact, towards the particle; `wall` is the wall's state at that time. With `elastic` (TC
-/// model, theory 5.4) alpha_w becomes at least 1 and beta_w -1. The drive stays.
+/// at the contact, towards the particle; `wall` is the wall's state at that time. With `elastic`
+/// (TC model, theory 5.4) alpha_w becomes at least 1 and beta_w -1. The drive stays.
 template <int D>
 Departure<D> wall_outcome(const Model<D>& model, const Wall& law, const Vec<D>& normal,
                           const WallState& wall, const Arrival<D>& arrival, bool elastic);

@@ -46,9 +46,9 @@ struct Event {
   std::uint32_t partner = 0;  ///< a particle, or another value as above
 };
 
-/// Total order of events: by time, then by kind (particles, fixtures and walls, cell borders), then by particle
-/// numbers. Both orders of a pair are the same event. `numbers` has the original numbers of the
-/// particles; null: they are the particles' own.
+/// Total order of events: by time, then by kind (particles, fixtures and walls, cell borders), then
+/// by particle numbers. Both orders of a pair are the same event. `numbers` has the original
+/// numbers of the particles; null: they are the particles' own.
 inline bool before(const Event& a, const Event& b, const std::uint32_t* numbers = nullptr) {
   if (a.time != b.time) return a.time < b.time;
   const auto rank = [numbers](const Event& e) {

@@ -434,8 +434,9 @@ bool EventLoop<D>::compare(Preparation& work, const StopRequest& pause) const {
   });
 }
 
-// Deepest overlap of a particle with others, with walls and with fixtures. A pair of particles that are alike is
-// compared once. A small particle may be on lists that a large one reads, but not the reverse.
+// Deepest overlap of a particle with others, with walls and with fixtures. A pair of particles that
+// are alike is compared once. A small particle may be on lists that a large one reads, but not the
+// reverse.
 template <int D>
 double EventLoop<D>::deepest_overlap_of(std::size_t number,
                                         const FixtureImages<D>& fixtures) const {
@@ -485,8 +486,7 @@ template <int D>
 std::optional<std::pair<std::uint32_t, std::size_t>> EventLoop<D>::overlapping(
     const FixtureImages<D>& fixtures, double bearable) const {
   for (std::uint32_t i = 0; i < gas_.particles.size(); ++i) {
-    const Vec<D> place =
-        model_.domain().wrapped(gas_.particles[i].flight.at(now_, model_.gravity));
+    const Vec<D> place = model_.domain().wrapped(gas_.particles[i].flight.at(now_, model_.gravity));
     const double depth = fixtures.depth(place, grain(i).radius, grain(i).species);
     if (depth > bearable * model_.diameter) {
       return std::pair(i, *fixtures.deepest(place, grain(i).radius, grain(i).species));

@@ -146,8 +146,8 @@ class EventLoop {
   double deepest_overlap_with(const Boundary<D>& boundary) const;
   /// A particle and the number of a fixture that overlap by more than `bearable` diameters now;
   /// absent: none do.
-  std::optional<std::pair<std::uint32_t, std::size_t>> overlapping(
-      const FixtureImages<D>& fixtures, double bearable) const;
+  std::optional<std::pair<std::uint32_t, std::size_t>> overlapping(const FixtureImages<D>& fixtures,
+                                                                   double bearable) const;
   /// Reports every event from now on to an observer.
   void add_observer(Observer<D>& observer) { observers_.push_back(&observer); }
   /// Reports nothing to an observer from now on.

@@ -260,8 +260,11 @@ void EventLoop<D>::hit_fixture(std::uint32_t number, std::uint32_t piece, const 
   checks_.deepest_overlap = std::max(checks_.deepest_overlap, beyond / model_.diameter);
   at.r += beyond * normal;
   bounce(number, at,
-         {WallCollision<D>::kNoSide, fixture, normal,
-          model_.fixtures[fixture].law_for(grain(number).species), {},
+         {WallCollision<D>::kNoSide,
+          fixture,
+          normal,
+          model_.fixtures[fixture].law_for(grain(number).species),
+          {},
           place - (grain(number).radius - beyond) * normal});
 }
 

@@ -35,9 +35,9 @@ class Neighbourhood {
   /// alike, and must outlive it.
   Neighbourhood(const Model<D>& model, const GrainArray& grains, double particles)
       : grains_(&grains),
-        grid_(whole_box<D>(model), grid_sizes<D>(model, grains),
-              has_lists(model, grains, particles) ? 1.0
-                                                  : CellGrid<D>::kCellsPerParticle * particles),
+        grid_(
+            whole_box<D>(model), grid_sizes<D>(model, grains),
+            has_lists(model, grains, particles) ? 1.0 : CellGrid<D>::kCellsPerParticle * particles),
         pieces_(model) {
     if (has_lists(model, grains, particles)) lists_.emplace(model, grains, particles);
     pieces_.lay(grid_);

@@ -42,7 +42,8 @@ void PieceLists<D>::lay(const CellGrid<D>& grid) {
   const IntVec<D> counts = grid.counts();
   for (std::uint32_t number = 0; number < pieces_.size(); ++number) {
     const Piece<D>& piece = pieces_[number].piece;
-    const auto [low, high] = piece.bounds();
+    const std::pair<Vec<D>, Vec<D>> bounds = piece.bounds();
+    const Vec<D>&low = bounds.first, &high = bounds.second;
     // The images that reach the cells.
     IntVec<D> from = IntVec<D>::Zero(), to = IntVec<D>::Zero();
     for (int axis = 0; axis < D; ++axis) {

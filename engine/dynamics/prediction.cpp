@@ -62,7 +62,9 @@ void Prediction<D>::offer(double time, std::uint32_t particle, std::uint32_t par
                           const IntVec<D>& image, Plan<D>& plan) const {
   if (time > plan.time || time == kNever) return;
   if (time == plan.time) {
-    const auto number = [this](std::uint32_t p) { return numbers_ && p < kPiece ? numbers_[p] : p; };
+    const auto number = [this](std::uint32_t p) {
+      return numbers_ && p < kPiece ? numbers_[p] : p;
+    };
     const bool swap = number(partner) < number(particle);
     const bool first = number(partner) < number(plan.partner) ||
                        (partner == plan.partner && image_before<D>(image, plan.image, swap));

@@ -86,8 +86,8 @@ PhysicalStop overlap_at_start(const Model<D>& model, const RunState<D>& saved, d
 }
 
 template <int D>
-PhysicalStop fixture_in_particle(const Model<D>& model, std::size_t fixture,
-                                 std::uint32_t particle, double time) {
+PhysicalStop fixture_in_particle(const Model<D>& model, std::size_t fixture, std::uint32_t particle,
+                                 double time) {
   return PhysicalStop(fmt::format(
       "the change at t = {:.9g} puts {} where particle {} is; choose another place or time", time,
       model.fixtures[fixture].name, particle));

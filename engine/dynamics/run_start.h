@@ -33,7 +33,7 @@ PhysicalStop overlap_at_start(const Model<D>& model, const RunState<D>& saved, d
 
 /// The error of a change that puts a fixture, by its number in the model, where a particle is.
 template <int D>
-PhysicalStop fixture_in_particle(const Model<D>& model, std::size_t fixture,
-                                 std::uint32_t particle, double time);
+PhysicalStop fixture_in_particle(const Model<D>& model, std::size_t fixture, std::uint32_t particle,
+                                 double time);
 
 }  // namespace clatter

@@ -85,8 +85,8 @@ State<D> adapted_mixture(const State<D>& state, const Scene& scene, std::uint64_
       for (int axis = 0; axis < D; ++axis) {
         fitted.positions[k][axis] = std::lerp(low[axis], high[axis], random.uniform());
       }
-      placed = room.insert_if_free(fitted.positions[k], heirs[k].grain.radius,
-                                    heirs[k].grain.species);
+      placed =
+          room.insert_if_free(fitted.positions[k], heirs[k].grain.radius, heirs[k].grain.species);
     }
     if (!placed) return {};
   }
@@ -122,8 +122,7 @@ State<D> adapt_to_scene(const State<D>& state, const Scene& scene, std::uint64_t
   const auto count = static_cast<std::size_t>(scene.particles.count);
   Random random(seed, Stream::Placement, 1, 0);
   const Room<D> room = scene.start_room<D>();
-  RandomInsertion<D> insertion(room, scene.particles.count, random,
-                               start_fixtures<D>(scene));
+  RandomInsertion<D> insertion(room, scene.particles.count, random, start_fixtures<D>(scene));
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < state.positions.size() && kept.size() < count; ++i) {
     if (insertion.place_first(state.positions[i] - corner)) kept.push_back(i);

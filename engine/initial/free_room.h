@@ -17,7 +17,11 @@ class FreeRoom {
   /// `diameter` is the largest of all particles.
   FreeRoom(const Domain<D>& domain, double diameter, const Vec<D>& low, const Vec<D>& high,
            const std::vector<Fixture<D>>& fixtures)
-      : domain_(domain), near_(domain, diameter), low_(low), high_(high), fixtures_(fixtures, domain) {}
+      : domain_(domain),
+        near_(domain, diameter),
+        low_(low),
+        high_(high),
+        fixtures_(fixtures, domain) {}
 
   /// Adds a particle, wherever it is.
   void insert(const Vec<D>& place, double radius) {

@@ -159,8 +159,8 @@ void OverlapRemoval<D>::visit_near(const Grid& grid, const Vec<D>& place, Visit 
   }
 }
 
-// Parts all pairs once: each particle from those of its grid and of coarser ones, and from fixtures.
-// Returns the sum of their overlaps.
+// Parts all pairs once: each particle from those of its grid and of coarser ones, and from
+// fixtures. Returns the sum of their overlaps.
 template <int D>
 double OverlapRemoval<D>::sweep() {
   double sum = 0.0;

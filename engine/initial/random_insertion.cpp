@@ -269,7 +269,7 @@ class SparseInsertion : public RandomInsertion<D>::Work {
 
 template <int D>
 std::unique_ptr<typename RandomInsertion<D>::Work> work_in(const Room<D>& room, std::size_t count,
-                                                          const FixtureImages<D>& fixtures) {
+                                                           const FixtureImages<D>& fixtures) {
   constexpr double kSparse = 50.0;  // room per particle, in cubed (2D: squared) diameters
   const double cube =
       D == 2 ? room.diameter * room.diameter : room.diameter * room.diameter * room.diameter;

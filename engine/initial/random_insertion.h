@@ -17,8 +17,8 @@ namespace clatter {
 template <int D>
 class RandomInsertion {
  public:
-  /// Begins the insertion of `count` centres between fixtures in the room. `random` must outlive the
-  /// insertion.
+  /// Begins the insertion of `count` centres between fixtures in the room. `random` must outlive
+  /// the insertion.
   RandomInsertion(const Room<D>& room, int count, Random& random,
                   const FixtureImages<D>& fixtures = FixtureImages<D>());
   RandomInsertion(const RandomInsertion&) = delete;

@@ -48,8 +48,8 @@ FixtureImages<D> start_fixtures(const Scene& scene);
 /// with random vacancies. From 0.49 on a crystal of spheres is stable beside the fluid, and some of
 /// its order may remain. Species of one diameter have these places at random, and those of several
 /// diameters have the places of OverlapRemoval. Between fixtures random insertion comes first, and
-/// then OverlapRemoval. A lattice has no sites in fixtures. The scene must be validated: its count fits one of
-/// the lattices. Throws Interrupted.
+/// then OverlapRemoval. A lattice has no sites in fixtures. The scene must be validated: its count
+/// fits one of the lattices. Throws Interrupted.
 template <int D>
 State<D> start_state(const Scene& scene, std::uint64_t seed, const StopRequest& stop = {});
 

@@ -5,8 +5,9 @@
 
 namespace clatter {
 
-// Whether a ray along x from a position crosses the segment between two corners. Of two segments that
-// meet on the ray it crosses one if they are on both sides of the ray, and none or both otherwise.
+// Whether a ray along x from a position crosses the segment between two corners. Of two segments
+// that meet on the ray it crosses one if they are on both sides of the ray, and none or both
+// otherwise.
 static bool crosses(const Vec2& first, const Vec2& second, const Vec2& position) {
   const Vec2 a = first - position, b = second - position;
   if ((a.y() > 0.0) == (b.y() > 0.0)) return false;
@@ -81,8 +82,8 @@ template <class Visit>
 void FixtureImages<D>::visit_near(const Vec<D>& position, double radius, std::uint32_t species,
                                   const Visit& visit) const {
   for (const auto& [number, shift, low, high] : images_) {
-    const bool far = ((position - low).array() < -radius).any() ||
-                     ((position - high).array() > radius).any();
+    const bool far =
+        ((position - low).array() < -radius).any() || ((position - high).array() > radius).any();
     if (far || fixtures_[number].lets_pass(species)) continue;
     visit(number, Vec<D>(position + shift));
   }
@@ -102,8 +103,7 @@ std::optional<std::size_t> FixtureImages<D>::deepest(const Vec<D>& position, dou
 }
 
 template <int D>
-double FixtureImages<D>::depth(const Vec<D>& position, double radius,
-                               std::uint32_t species) const {
+double FixtureImages<D>::depth(const Vec<D>& position, double radius, std::uint32_t species) const {
   double deepest = 0.0;
   visit_near(position, radius, species, [&](std::size_t fixture, const Vec<D>& place) {
     deepest = std::max(deepest, radius - distance_from(fixtures_[fixture], place));
@@ -121,12 +121,15 @@ Vec<D> FixtureImages<D>::way_out(const Vec<D>& position, double radius,
     const double beyond = radius - distance_from(fixture, place);
     if (!(beyond > deepest)) return;
     deepest = beyond;
-    const auto nearest = std::ranges::min_element(
-        fixture.pieces, {}, [&](const Piece<D>& piece) { return piece.distance(place); });
+    const auto nearest = std::min_element(fixture.pieces.begin(), fixture.pieces.end(),
+                                          [&](const Piece<D>& a, const Piece<D>& b) {
+                                            return a.distance(place) < b.distance(place);
+                                          });
     Vec<D> away = place - nearest->foot(place);
     const double length = away.norm();
-    away = length > 0.0 ? Vec<D>(away / length)
-                        : nearest->is_plate() ? nearest->normal : Vec<D>(Vec<D>::Unit(0));
+    away = length > 0.0          ? Vec<D>(away / length)
+           : nearest->is_plate() ? nearest->normal
+                                 : Vec<D>(Vec<D>::Unit(0));
     const bool inside = beyond > radius && fixture.solid;
     way = beyond * (inside ? -away : away);
   });

@@ -40,9 +40,7 @@ struct Fixture {
     return pieces == other.pieces && passes == other.passes;
   }
   /// Whether a species does not see it.
-  bool lets_pass(std::uint32_t species) const {
-    return species < passes.size() && passes[species];
-  }
+  bool lets_pass(std::uint32_t species) const { return species < passes.size() && passes[species]; }
 };
 
 /// In place of a species: one that sees all fixtures.
@@ -64,11 +62,12 @@ class FixtureImages {
   bool any() const { return !images_.empty(); }
   /// Whether a fixture does not exist for some species.
   bool differ() const;
-  /// The number of the fixture that a particle at a position in the box overlaps most; absent: none.
+  /// The number of the fixture that a particle at a position in the box overlaps most; absent:
+  /// none.
   std::optional<std::size_t> deepest(const Vec<D>& position, double radius,
                                      std::uint32_t species) const;
-  /// Depth by which a particle at a position in the box overlaps a fixture that its species sees; 0:
-  /// none.
+  /// Depth by which a particle at a position in the box overlaps a fixture that its species sees;
+  /// 0: none.
   double depth(const Vec<D>& position, double radius, std::uint32_t species) const;
   /// The way by which such a particle leaves the fixture that it overlaps most; 0: none.
   Vec<D> way_out(const Vec<D>& position, double radius, std::uint32_t species) const;
@@ -76,7 +75,7 @@ class FixtureImages {
  private:
   struct Image {
     std::size_t fixture;
-    Vec<D> shift;  // added to positions
+    Vec<D> shift;      // added to positions
     Vec<D> low, high;  // bounds, in the frame of the positions
   };
   template <class Visit>

@@ -20,8 +20,8 @@ struct CompartmentSeries {
   std::vector<double> temperature_left;   ///< (1/D N) sum m v^2 of the particles there; NaN: none
   std::vector<double> temperature_right;  ///< the same of the others
 
-  /// Adds the state of a simulation now, as sample number `number`. Former ones without compartments
-  /// are NaN.
+  /// Adds the state of a simulation now, as sample number `number`. Former ones without
+  /// compartments are NaN.
   template <int D>
   void sample(const Simulation<D>& simulation, const AxisPlane& plane, std::size_t number);
 };
@@ -36,9 +36,9 @@ void visit(Archive& io, CompartmentSeries& series) {
 /// Results of the compartments, averaged over samples. Temperatures are over the samples in which
 /// the compartment has particles, and absent without any.
 struct CompartmentMeans {
-  Estimate count_left;   ///< number of particles at the lower side
-  Estimate share_left;   ///< this number over that of all
-  Estimate imbalance;    ///< |N_left - N_right| / N
+  Estimate count_left;  ///< number of particles at the lower side
+  Estimate share_left;  ///< this number over that of all
+  Estimate imbalance;   ///< |N_left - N_right| / N
   std::optional<Estimate> temperature_left;
   std::optional<Estimate> temperature_right;
   std::vector<double> share_left_series;  ///< at all samples, the burn-in included

@@ -53,7 +53,8 @@ std::vector<FixtureMeans> fixture_means(std::span<const FixtureTotalsWindow<D>> 
   for (std::size_t k = 0; k < model.fixtures.size(); ++k) {
     const auto rate = [&](const auto& sum) {
       std::vector<double> series;
-      for (const auto& window : windows) series.push_back(sum(window.fixtures[k]) / window.duration);
+      for (const auto& window : windows)
+        series.push_back(sum(window.fixtures[k]) / window.duration);
       return mean_estimate(series);
     };
     FixtureMeans& means = all.emplace_back();

@@ -17,10 +17,10 @@ namespace clatter {
 /// Sums over the hits on one fixture in one window of time.
 template <int D>
 struct FixtureWindow {
-  Vec<D> impulse = Vec<D>::Zero();             ///< momentum given to the fixture
-  Spin<D> angular_impulse = Spin<D>::Zero();   ///< the same about its centre; 0 without one
-  double energy = 0.0;                         ///< energy given to the gas
-  std::vector<double> hits;                    ///< [S] of each species; one number without species
+  Vec<D> impulse = Vec<D>::Zero();            ///< momentum given to the fixture
+  Spin<D> angular_impulse = Spin<D>::Zero();  ///< the same about its centre; 0 without one
+  double energy = 0.0;                        ///< energy given to the gas
+  std::vector<double> hits;                   ///< [S] of each species; one number without species
 
   template <class Archive>
   void visit(Archive& io) {

@@ -222,10 +222,11 @@ void Measurement<D>::fit_series() {
 template <int D>
 template <class Archive>
 void Measurement<D>::visit_averages(Archive& io) {
-  auto& [simulation, measure, end, balanced, fields, totals, species, fixtures, cells, balance, series_start,
-         averages_start, window, started, counts_at_start, windows, species_windows,
-         fixture_windows, columns, parts, residuals, samples, series, compartments, observables, go_on,
-         particles, own, of_totals, of_species, of_fixtures, of_cells, of_balance, timers] = *this;
+  auto& [simulation, measure, end, balanced, fields, totals, species, fixtures, cells, balance,
+         series_start, averages_start, window, started, counts_at_start, windows, species_windows,
+         fixture_windows, columns, parts, residuals, samples, series, compartments, observables,
+         go_on, particles, own, of_totals, of_species, of_fixtures, of_cells, of_balance, timers] =
+      *this;
   io(averages_start, window, started, counts_at_start, windows, columns, parts, residuals, samples);
   if (simulation.model().species) io(species_windows);
   if (!simulation.model().fixtures.empty()) io(fixture_windows);

@@ -91,15 +91,12 @@ static double zero_between(const Function& function, double before, double after
 // formula of the quartic would lose digits where grazing is decided.
 template <int D>
 FallTimes fall_times(const Vec<D>& x, const Vec<D>& v, const Vec<D>& g, double distance) {
-  const double c1 = x.dot(v), c2 = v.squaredNorm() + x.dot(g), c3 = v.dot(g),
-               c4 = g.squaredNorm();
+  const double c1 = x.dot(v), c2 = v.squaredNorm() + x.dot(g), c3 = v.dot(g), c4 = g.squaredNorm();
   // Half the difference of the squared distances, and its derivative.
   const auto gap = [&](double t) {
     return (x + (v + g * (0.5 * t)) * t).squaredNorm() - distance * distance;
   };
-  const auto slope = [&](double t) {
-    return c1 + (c2 + (1.5 * c3 + 0.5 * c4 * t) * t) * t;
-  };
+  const auto slope = [&](double t) { return c1 + (c2 + (1.5 * c3 + 0.5 * c4 * t) * t) * t; };
   // Ends of the intervals in which the slope is monotonic.
   std::array<double, 4> ends = {};
   int count = 1;
@@ -123,8 +120,7 @@ FallTimes fall_times(const Vec<D>& x, const Vec<D>& v, const Vec<D>& g, double d
     if (from > 0.0 && !(to > 0.0)) {
       turns[turn_count++] = zero_between(slope, ends[k], ends[k + 1]);
     } else if (!(from > 0.0) && to > 0.0) {
-      turns[turn_count++] =
-          zero_between([&](double t) { return -slope(t); }, ends[k], ends[k + 1]);
+      turns[turn_count++] = zero_between([&](double t) { return -slope(t); }, ends[k], ends[k + 1]);
     }
   }
   turns[turn_count++] = far;

@@ -106,12 +106,11 @@ bool change_fixtures(Scene& made, const VecX& former_box) {
   }
   std::size_t removed = 0;
   if (flat) {
-    removed += std::erase_if(made.partitions,
-                             [](const Partition& one) { return one.axis == Axis::Z; });
+    removed +=
+        std::erase_if(made.partitions, [](const Partition& one) { return one.axis == Axis::Z; });
   } else {
-    removed += std::erase_if(made.obstacles, [](const Obstacle& one) {
-      return one.kind == ObstacleKind::Polygon;
-    });
+    removed += std::erase_if(made.obstacles,
+                             [](const Obstacle& one) { return one.kind == ObstacleKind::Polygon; });
   }
   for (Partition& one : made.partitions) change_partition(one, ratio, made.box);
   return removed > 0;

@@ -108,8 +108,7 @@ inline constexpr auto kFixtureKeys = key_table(
     kRunCommands,
     {{"name", "",
       "Name in results, of letters, digits, `_` and `-`. Without a value the kind and a number."},
-     {"present", "",
-      "Whether it is there. A change to false removes it during a run."},
+     {"present", "", "Whether it is there. A change to false removes it during a run."},
      {"restitution", "1", "Ratio of the normal velocities after and before a bounce."},
      {"drive_speed", "a/t",
       "Gain in normal velocity at each bounce. Without a value the surface is at rest."},
@@ -137,8 +136,8 @@ void visit_fixture_law(Visitor& io, FixtureLaw& law, const std::vector<std::stri
         visit_other_roughness(io, one.roughness, of_touch);
         io.value(kSpeciesWallKeys.at("drive_speed"), one.drive_speed, between(0.0, kMaxSpeed),
                  all.drive_speed ? of_touch : kNotWithoutDrive);
-        io.value(kSpeciesWallKeys.at("temperature"), one.temperature,
-                 between(0.0, kMaxTemperature), thermal ? kOptional : kNotWithoutTemperature);
+        io.value(kSpeciesWallKeys.at("temperature"), one.temperature, between(0.0, kMaxTemperature),
+                 thermal ? kOptional : kNotWithoutTemperature);
       });
     }
   });
@@ -182,11 +181,10 @@ inline constexpr auto kPartitionKeys = key_table(
      {"position", "a", "Position along this axis. The partition has no thickness."},
      {"passes", "", "Names of species that do not see the partition: it is a membrane."}});
 inline constexpr auto kHoleKeys = key_table(
-    kRunCommands,
-    {{"from", "a",
-      "Lower end of the hole along the other axis. In 3D along the other two, "
-      "in order."},
-     {"to", "a", "Upper end of the hole, in the same way."}});
+    kRunCommands, {{"from", "a",
+                    "Lower end of the hole along the other axis. In 3D along the other two, "
+                    "in order."},
+                   {"to", "a", "Upper end of the hole, in the same way."}});
 
 /// The keys of one item of [[partition]].
 template <class Visitor>

@@ -59,9 +59,9 @@ inline constexpr Presence kNotOfObstacle = {Presence::Forbidden,
 inline constexpr Presence kNotOfThermal = {
     Presence::Forbidden, "has no meaning beside temperature: a thermal surface emits all particles",
     "remove one of the two"};
-inline constexpr Presence kNotWithoutDrive = {
-    Presence::Forbidden, "has no meaning without drive_speed for all species",
-    "remove it, or give drive_speed, which may be 0"};
+inline constexpr Presence kNotWithoutDrive = {Presence::Forbidden,
+                                              "has no meaning without drive_speed for all species",
+                                              "remove it, or give drive_speed, which may be 0"};
 inline constexpr Presence kNotWithoutTemperature = {
     Presence::Forbidden, "has no meaning without a temperature for all species",
     "remove it, or give a temperature"};

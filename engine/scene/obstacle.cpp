@@ -134,17 +134,14 @@ std::vector<Piece<D>> partition_pieces(const Scene& scene, const Partition& part
       for (const double cut : {hole.from[k], hole.to[k]}) cuts[k].push_back(cut);
     }
     std::ranges::sort(cuts[k]);
-    const auto repeated = std::ranges::unique(cuts[k]);
-    cuts[k].erase(repeated.begin(), repeated.end());
+    cuts[k].erase(std::unique(cuts[k].begin(), cuts[k].end()), cuts[k].end());
   }
   const auto point = [&](const std::array<double, D - 1>& place) {
     Vec<D> at = partition.position * Vec<D>::Unit(across);
     for (int k = 0; k < D - 1; ++k) at[along[k]] = place[k];
     return at;
   };
-  const auto edge = [&](int k, double length) {
-    return Vec<D>(length * Vec<D>::Unit(along[k]));
-  };
+  const auto edge = [&](int k, double length) { return Vec<D>(length * Vec<D>::Unit(along[k])); };
   std::vector<Piece<D>> pieces;
   std::array<std::size_t, D - 1> cell{};
   while (cell[D - 2] + 1 < cuts[D - 2].size()) {
@@ -175,8 +172,8 @@ std::vector<Piece<D>> partition_pieces(const Scene& scene, const Partition& part
       if constexpr (D == 2) {
         pieces.push_back(ball_piece<2>(point({first[0]}), 0.0));
       } else {
-        pieces.push_back(flat_piece<3>(point({first[0], hole.from[1]}),
-                                       {edge(1, hole.to[1] - hole.from[1])}));
+        pieces.push_back(
+            flat_piece<3>(point({first[0], hole.from[1]}), {edge(1, hole.to[1] - hole.from[1])}));
         for (const std::vector<double>& second : ends) {
           if (is_inside(1, second[1])) {
             pieces.push_back(ball_piece<3>(point({first[0], second[1]}), 0.0));
@@ -187,8 +184,8 @@ std::vector<Piece<D>> partition_pieces(const Scene& scene, const Partition& part
     if constexpr (D == 3) {
       for (const std::vector<double>& second : ends) {
         if (!is_inside(1, second[1])) continue;
-        pieces.push_back(flat_piece<3>(point({hole.from[0], second[1]}),
-                                       {edge(0, hole.to[0] - hole.from[0])}));
+        pieces.push_back(
+            flat_piece<3>(point({hole.from[0], second[1]}), {edge(0, hole.to[0] - hole.from[0])}));
       }
     }
   }

@@ -14,8 +14,8 @@ namespace clatter {
 /// How particles leave a fixture. It is static; with a drive speed it is driven, and with a
 /// temperature thermal.
 struct FixtureLaw {
-  SpeciesWall of_all;                    ///< absent members: elastic, smooth, at rest
-  std::vector<SpeciesWall> of_species;   ///< [S] differences of each species
+  SpeciesWall of_all;                   ///< absent members: elastic, smooth, at rest
+  std::vector<SpeciesWall> of_species;  ///< [S] differences of each species
 
   /// The law for all species.
   Wall wall() const;
@@ -30,14 +30,14 @@ enum class ObstacleKind { Ball, Polygon, Box };
 
 /// A body at rest in the box.
 struct Obstacle {
-  std::optional<std::string> name;    ///< absent: "obstacle_1" and so on, see obstacle_name()
+  std::optional<std::string> name;  ///< absent: "obstacle_1" and so on, see obstacle_name()
   ObstacleKind kind = ObstacleKind::Ball;
-  VecX centre = Vec2::Zero();         ///< of a ball
-  double radius = 1.0;                ///< of a ball, > 0
-  std::vector<Vec2> corners;          ///< of a polygon in 2D, in order around it
-  VecX from = Vec2::Zero();           ///< lowest corner of a box
-  VecX to = Vec2::Zero();             ///< highest corner of a box
-  bool present = true;                ///< false: not there now, until a change
+  VecX centre = Vec2::Zero();  ///< of a ball
+  double radius = 1.0;         ///< of a ball, > 0
+  std::vector<Vec2> corners;   ///< of a polygon in 2D, in order around it
+  VecX from = Vec2::Zero();    ///< lowest corner of a box
+  VecX to = Vec2::Zero();      ///< highest corner of a box
+  bool present = true;         ///< false: not there now, until a change
   FixtureLaw law;
 
   bool operator==(const Obstacle&) const = default;

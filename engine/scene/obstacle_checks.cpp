@@ -108,9 +108,10 @@ void check_polygon(const std::vector<Vec2>& corners, const Item& item) {
     for (std::size_t j = i + 2; j < count; ++j) {
       if (i == 0 && j == count - 1) continue;
       if (!meet(at(i), at(i + 1), at(j), at(j + 1))) continue;
-      item.refuse("corners",
-                  "the edges from " + point_text(at(i)) + " and from " + point_text(at(j)) + " meet",
-                  "give the corners in order around the polygon");
+      item.refuse(
+          "corners",
+          "the edges from " + point_text(at(i)) + " and from " + point_text(at(j)) + " meet",
+          "give the corners in order around the polygon");
     }
   }
 }
@@ -124,8 +125,7 @@ void check_obstacle(const Scene& scene, const Obstacle& obstacle, const Item& it
     }
     case ObstacleKind::Polygon: {
       if (scene.dimension() == 3) {
-        item.refuse("kind", "a polygon has no meaning among spheres",
-                    "choose \"ball\" or \"box\"");
+        item.refuse("kind", "a polygon has no meaning among spheres", "choose \"ball\" or \"box\"");
       }
       check_polygon(obstacle.corners, item);
       Vec2 low = obstacle.corners.front(), high = low;
@@ -139,10 +139,10 @@ void check_obstacle(const Scene& scene, const Obstacle& obstacle, const Item& it
     case ObstacleKind::Box:
       for (int axis = 0; axis < scene.dimension(); ++axis) {
         if (obstacle.from[axis] < obstacle.to[axis]) continue;
-        item.refuse("to",
-                    "the box ends at " + number_text(obstacle.to[axis]) +
-                        ", where it does not begin below",
-                    "make each number of 'to' larger than that of 'from'");
+        item.refuse(
+            "to",
+            "the box ends at " + number_text(obstacle.to[axis]) + ", where it does not begin below",
+            "make each number of 'to' larger than that of 'from'");
       }
       check_reach(scene, item, "from", obstacle.from, obstacle.to);
       break;

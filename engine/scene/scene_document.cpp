@@ -202,9 +202,9 @@ static void replace_in_fixtures(toml::table& root, toml::table& changes, const P
       if (!values) throw UserError(place, "the path has no key of a fixture", "write " + path);
       toml::table* item = fixture_table(root, list, name.str());
       if (!item) {
-        throw UserError(place, "there is no " + std::string(list) + ' ' + in_quotes(name.str()),
-                        "give the name of one, or " + std::string(list) +
-                            "_1 for the first without a name");
+        throw UserError(
+            place, "there is no " + std::string(list) + ' ' + in_quotes(name.str()),
+            "give the name of one, or " + std::string(list) + "_1 for the first without a name");
       }
       replace(*item, *values);
     }

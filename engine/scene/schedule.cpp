@@ -51,15 +51,14 @@ static void require_same_grains(const Scene& before, const Scene& now) {
 
 // Particles of a run know fixtures by their numbers.
 static void require_same_fixtures(const Scene& before, const Scene& now) {
-  const bool same =
-      std::ranges::equal(before.obstacles, now.obstacles,
-                         [](const Obstacle& a, const Obstacle& b) {
-                           return a.name == b.name && a.kind == b.kind;
-                         }) &&
-      std::ranges::equal(before.partitions, now.partitions,
-                         [](const Partition& a, const Partition& b) {
-                           return a.name == b.name && a.axis == b.axis;
-                         });
+  const bool same = std::ranges::equal(before.obstacles, now.obstacles,
+                                       [](const Obstacle& a, const Obstacle& b) {
+                                         return a.name == b.name && a.kind == b.kind;
+                                       }) &&
+                    std::ranges::equal(before.partitions, now.partitions,
+                                       [](const Partition& a, const Partition& b) {
+                                         return a.name == b.name && a.axis == b.axis;
+                                       });
   if (same) return;
   throw UserError({}, "a name, kind or axis of a fixture cannot change while the gas moves",
                   "give the scene a second fixture with present = false, and exchange them");
@@ -93,7 +92,8 @@ static std::optional<Wall> partner_of(const Scene& laws, const std::string& owne
       if (owner == path + ".species." + laws.species[a].name) return laws.wall(side, a);
     }
   }
-  const auto of_fixture = [&](const std::string& path, const FixtureLaw& law) -> std::optional<Wall> {
+  const auto of_fixture = [&](const std::string& path,
+                              const FixtureLaw& law) -> std::optional<Wall> {
     if (owner == path) return law.wall();
     for (std::size_t a = 0; a < laws.species.size(); ++a) {
       if (owner == path + ".species." + laws.species[a].name) return law.wall(a);

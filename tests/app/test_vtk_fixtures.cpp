@@ -28,9 +28,11 @@ measure = { burn_in = 1, duration = 2, fields = ["density"] }
   CHECK(says(text, "NumberOfPoints=\"58\""));
   CHECK(says(text, "NumberOfLines=\"5\""));
   CHECK(says(text, "NumberOfPolys=\"1\""));
-  REQUIRE(shell.run("clatter measure things.toml --vtk maps --out r.json --quiet --set 'obstacle=[]' "
-                    "--set 'partition=[]'")
-              .code == 0);
+  REQUIRE(
+      shell
+          .run("clatter measure things.toml --vtk maps --out r.json --quiet --set 'obstacle=[]' "
+               "--set 'partition=[]'")
+          .code == 0);
   CHECK(!std::filesystem::exists(shell.path("maps/fixtures.vtp")));
 }
 

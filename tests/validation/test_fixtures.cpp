@@ -59,7 +59,8 @@ TEST_CASE("Fixture physics: one disk hits each body in proportion to its surface
   const double segments = 1.0 + 1.8 + 1.5;  // of the partition, with four ends
   const double covered = kPi * (ball + a) * (ball + a) + (2.0 + perimeter * a + kPi * a * a) +
                          (2.0 * a * segments + 2.0 * kPi * a * a);
-  check_billiard(R"(
+  check_billiard(
+      R"(
 box.size = [13.0, 7.0]
 particles.count = 1
 [[obstacle]]
@@ -74,9 +75,8 @@ axis = "x"
 position = 4.0
 holes = [{ from = [1.0], to = [2.2] }, { from = [4.0], to = [5.5] }]
 )",
-                 {2.0 * kPi * (ball + a), perimeter + 2.0 * kPi * a,
-                  2.0 * segments + 4.0 * kPi * a},
-                 91.0 - covered, 2);
+      {2.0 * kPi * (ball + a), perimeter + 2.0 * kPi * a, 2.0 * segments + 4.0 * kPi * a},
+      91.0 - covered, 2);
 }
 
 // Steiner's formulas of a cuboid with the sum of edges L: S + 2 pi a L + 4 pi a^2 and
@@ -86,7 +86,8 @@ TEST_CASE("Fixture physics: one sphere hits each body in proportion to its surfa
   const double sides = 2.0 * (2.0 + 3.0 + 1.5), volume = 3.0;
   const double covered = 4.0 / 3.0 * kPi * std::pow(ball + a, 3.0) + volume + sides * a +
                          kPi * edges * a * a + 4.0 / 3.0 * kPi * std::pow(a, 3.0);
-  check_billiard(R"(
+  check_billiard(
+      R"(
 box.size = [6.0, 5.5, 5.0]
 particles.count = 1
 [[obstacle]]
@@ -98,9 +99,8 @@ kind = "box"
 from = [3.5, 2.5, 3.0]
 to = [4.5, 4.5, 4.5]
 )",
-                 {4.0 * kPi * (ball + a) * (ball + a),
-                  sides + 2.0 * kPi * a * edges + 4.0 * kPi * a * a},
-                 165.0 - covered, 3);
+      {4.0 * kPi * (ball + a) * (ball + a), sides + 2.0 * kPi * a * edges + 4.0 * kPi * a * a},
+      165.0 - covered, 3);
 }
 
 // A closed body feels no mean force in an elastic gas in equilibrium, whatever its shape: five

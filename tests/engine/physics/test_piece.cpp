@@ -1,5 +1,3 @@
-#include "engine/physics/piece.h"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "engine/physics/piece.h"
 #include "engine/physics/random.h"
 #include "tests/support/dimensions.h"
 
@@ -79,8 +78,8 @@ void compare(const std::vector<Piece<D>>& pieces, const Body<D>& body, const Fli
   const double traced = traced_time(gap, speed, end);
   double found = kNever;
   for (const Piece<D>& piece : pieces) {
-    found = std::min(found, piece_contact_time<D>(piece, flight, Vec<D>::Zero(), radius, gravity) -
-                                flight.time);
+    found = std::min(
+        found, piece_contact_time<D>(piece, flight, Vec<D>::Zero(), radius, gravity) - flight.time);
   }
   if (found > end) found = kNever;
   if (std::isinf(traced) != std::isinf(found)) {
@@ -149,8 +148,7 @@ TEST_CASE_TEMPLATE("Pieces: the contacts of balls, plates and boxes are those of
         // Roughly towards the body.
         flight.v = 0.5 * (body.corner + random_point<D>(random, 1.5) - flight.r);
         if (body.distance(flight.r) < radius + 1e-3) continue;
-        const Vec<D> gravity =
-            falls ? random_point<D>(random, 1.0) : Vec<D>(Vec<D>::Zero());
+        const Vec<D> gravity = falls ? random_point<D>(random, 1.0) : Vec<D>(Vec<D>::Zero());
         compare<D>(pieces_of(body), body, flight, radius, gravity, 8.0, tally);
       }
       CHECK(tally.hits > 40);
@@ -170,8 +168,7 @@ TEST_CASE("Pieces: a ball is met at the first falling root of the quartic") {
   // Thrown up from beside the ball, over it, and down on its other side.
   const FallTimes over = fall_times<2>({-7.0, 0.0}, {7.0, 10.0}, {0.0, -10.0}, 5.0);
   REQUIRE(over.count == 1);
-  CHECK(Vec2(-7.0 + 7.0 * over.times[0],
-             10.0 * over.times[0] - 5.0 * over.times[0] * over.times[0])
+  CHECK(Vec2(-7.0 + 7.0 * over.times[0], 10.0 * over.times[0] - 5.0 * over.times[0] * over.times[0])
             .norm() == doctest::Approx(5.0));
 }
 
@@ -202,8 +199,8 @@ TEST_CASE("Pieces: ends of plates have no gap, and a plate does not see a partic
   CHECK(met(plate, back, {0.0, -1.0}) == doctest::Approx(root).epsilon(1e-14));
 }
 
-// A particle at rest on the top of a ball, or on a plate, is pressed on at once; one that moves away
-// is not met again.
+// A particle at rest on the top of a ball, or on a plate, is pressed on at once; one that moves
+// away is not met again.
 TEST_CASE("Pieces: a particle that touches is met again only if it is pressed on") {
   const Piece<2> ball = ball_piece<2>({0.0, 0.0}, 1.5);
   const Vec2 down(0.0, -1.0), none = Vec2::Zero();

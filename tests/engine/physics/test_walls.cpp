@@ -30,9 +30,7 @@ struct RoughHit {
   Vec<D> n() const { return inward * Vec<D>::Unit(axis); }
   double normal_change() const { return std::fabs(after[axis] - v[axis]); }
   Grain grain() const { return {.radius = 0.5 * diameter, .inertia = inertia}; }
-  MotionChange<D> friction() const {
-    return wall_friction<D>(v, smooth, spin, n(), law, grain());
-  }
+  MotionChange<D> friction() const { return wall_friction<D>(v, smooth, spin, n(), law, grain()); }
   Vec<D> surface_velocity() const { return v + 0.5 * diameter * cross_spin<D>(n(), spin); }
   double moment_of_inertia() const { return 0.25 * inertia * diameter * diameter; }
 };
@@ -51,9 +49,8 @@ RoughHit<D> random_hit(std::uint32_t number) {
   hit.v[hit.axis] = -hit.inward * std::fabs(hit.v[hit.axis]);
   hit.spin = 2.0 * random.uniform() / hit.diameter * random_vector<Spin<D>>(random);
   const double speed = random.below(2) ? random.uniform() : 0.0;
-  hit.smooth = number % 2
-                   ? reflect<D>(hit.v, hit.n(), hit.law.restitution, speed)
-                   : reflect_moving<D>(hit.v, hit.n(), hit.law.restitution, speed);
+  hit.smooth = number % 2 ? reflect<D>(hit.v, hit.n(), hit.law.restitution, speed)
+                          : reflect_moving<D>(hit.v, hit.n(), hit.law.restitution, speed);
   const MotionChange<D> friction = hit.friction();
   hit.after = hit.smooth + friction.velocity;
   hit.spin_after = hit.spin + friction.spin;

@@ -127,23 +127,26 @@ TEST_CASE("Fixture keys: mistakes have a place and a way out") {
   refused("[[obstacle]]\nkind = \"box\"\nfrom = [2, 2]\nto = [1, 3]\n", "6:1", "to");
   refused("[[obstacle]]\nkind = \"ball\"\ncentre = [5, 5]\nradius = 1\nfrom = [1, 1]\n", "7:1",
           "kind of obstacle");
-  refused("[[obstacle]]\nkind = \"ball\"\ncentre = [5, 5]\nradius = 1\ntemperature = 1\n"
-          "restitution = 0.5\n",
-          "8:1", "temperature");
+  refused(
+      "[[obstacle]]\nkind = \"ball\"\ncentre = [5, 5]\nradius = 1\ntemperature = 1\n"
+      "restitution = 0.5\n",
+      "8:1", "temperature");
   refused("[[partition]]\nposition = 30\n", "4:1", "inside the box");
   refused("[[partition]]\naxis = \"z\"\nposition = 5\n", "4:1", "z");
   refused("[[partition]]\nposition = 5\nholes = [{ from = [4], to = [3] }]\n", "5:1", "hole");
   refused("[[partition]]\nposition = 5\nholes = [{ from = [0], to = [3] }]\n", "5:1", "periodic");
-  refused("[[partition]]\nposition = 5\nholes = [{ from = [1], to = [3] }, { from = [2], to = [5] "
-          "}]\n",
-          "5:1", "two holes");
+  refused(
+      "[[partition]]\nposition = 5\nholes = [{ from = [1], to = [3] }, { from = [2], to = [5] "
+      "}]\n",
+      "5:1", "two holes");
   refused("[[partition]]\nposition = 5\npasses = [\"small\"]\n", "5:1", "no species");
   refused("[[partition]]\nname = \"a.b\"\nposition = 5\n", "4:1", "name");
-  refused("[[obstacle]]\nname = \"a\"\nkind = \"ball\"\ncentre = [5, 5]\nradius = 1\n"
-          "[[partition]]\nname = \"a\"\nposition = 15\n",
-          "9:1", "second fixture");
-  const std::string in_space = refusal(
-      kSpheres + "[[obstacle]]\nkind = \"polygon\"\ncorners = [[1, 1], [5, 1], [3, 4]]\n");
+  refused(
+      "[[obstacle]]\nname = \"a\"\nkind = \"ball\"\ncentre = [5, 5]\nradius = 1\n"
+      "[[partition]]\nname = \"a\"\nposition = 15\n",
+      "9:1", "second fixture");
+  const std::string in_space =
+      refusal(kSpheres + "[[obstacle]]\nkind = \"polygon\"\ncorners = [[1, 1], [5, 1], [3, 4]]\n");
   CHECK(in_space.find("spheres") != std::string::npos);
 }
 

@@ -136,9 +136,9 @@ void Reference<D>::weigh_fixtures(std::uint32_t i, double horizon, Next& first) 
       IntVec<D> image = from;
       while (image[0] <= to[0]) {
         const Vec<D> shift = image.template cast<double>().cwiseProduct(model_.box);
-        const Event event{piece_contact_time<D>(piece, flights_[i], shift, grain(i).radius,
-                                                model_.gravity),
-                          i, partner};
+        const Event event{
+            piece_contact_time<D>(piece, flights_[i], shift, grain(i).radius, model_.gravity), i,
+            partner};
         if (event.time < kNever && before(event, first.event)) first = {event, image};
         for (int axis = D - 1; ++image[axis] > to[axis] && axis > 0; --axis) {
           image[axis] = from[axis];

@@ -34,9 +34,9 @@ class BaseMoves : public Observer<D> {
 };
 
 /// A brute-force version of Simulation. Before every event it tests all pairs, all images, all
-/// walls and all pieces of fixtures, and takes the earliest event. It has no cells, no queue and no memory between events. It
-/// uses the same functions of physics/ for contacts and collisions, and the moves of the base of
-/// the simulation. Equal runs are equal to the last bit.
+/// walls and all pieces of fixtures, and takes the earliest event. It has no cells, no queue and no
+/// memory between events. It uses the same functions of physics/ for contacts and collisions, and
+/// the moves of the base of the simulation. Equal runs are equal to the last bit.
 template <int D>
 class Reference {
  public:
