@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <cstring>
 #include <ctime>
+#include <iterator>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -214,6 +216,31 @@ TEST_CASE("Foresight: tiles give the bits of the whole gas, on any number of thr
                      [&](auto dimension) { compare_ways<dimension>(scene, observed); });
     }
   }
+}
+
+// The tiles exist before the partition does. It comes between two rows of the start.
+TEST_CASE("Foresight: tiles see a partition that a change puts into the gas") {
+  Scene scene = parse_scene(R"(box.size = [70, 60]
+       particles = { area_fraction = 0.2, start.layout = "lattice" }
+       partition = [{ axis = "y", position = 30, present = false }])",
+                            "a scene");
+  const Model<2> before = model_of<2>(scene, kForesightSeed);
+  const State<2> start = start_state<2>(scene, kForesightSeed);
+  std::set<double> rows;
+  for (const Vec2& place : start.positions) rows.insert(place.y());
+  const auto above = rows.upper_bound(30.0);
+  REQUIRE(*above - *std::prev(above) > 1.0);
+  scene.partitions[0].position = 0.5 * (*above + *std::prev(above));
+  scene.partitions[0].present = true;
+  const Model<2> after = model_of<2>(scene, kForesightSeed);
+  Simulation<2> whole(before, start);
+  whole.set_laws(after);
+  const Outcome wanted = outcome_of(whole, false, 4, 3000);
+  Simulation<2> tiled(before, start);
+  tiled.use_threads(2, {.particles = 150.0, .collisions = 2.0, .halo = 5.0});
+  tiled.set_laws(after);
+  CHECK(wanted.counts.wall_collisions > 100);
+  check_equal(outcome_of(tiled, false, 4, 3000), wanted);
 }
 
 TEST_CASE("Foresight: simultaneous collisions in several tiles have the order of the whole gas") {
