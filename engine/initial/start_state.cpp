@@ -332,8 +332,11 @@ class StartWork : public StartMaker::Work {
     State<D> state;
     const Vec<D> corner = scene_.clear_corner();
     if (!grains_.empty()) {
-      // Places of equal particles may have an order in space; the species must be anywhere.
-      if (have_equal_radii(grains_)) choose<D>(positions_, positions_.size(), random_);
+      // Places of equal particles may have an order in space; the species must be anywhere. Beside a
+      // membrane each place belongs to its particle.
+      if (have_equal_radii(grains_) && !fixtures_.differ()) {
+        choose<D>(positions_, positions_.size(), random_);
+      }
       for (Vec<D>& position : positions_) position += corner;
       state = state_at_places<D>(positions_, grains_, start.temperature, seed_, stop_);
       if (scene_.spins()) {

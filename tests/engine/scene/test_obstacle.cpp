@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -178,6 +179,38 @@ partition = [{ axis = "y", position = 4.0 }]
                    1);
   });
   CHECK(filled.find("fewer") != std::string::npos);
+}
+
+// Depths are found from coordinates alone: a box whose corner is not a sum of powers of two.
+TEST_CASE("Fixture keys: no sphere begins in a box, and no disk on a membrane that it sees") {
+  const Scene space = parse_scene(R"(box.size = [10, 10, 10]
+particles.count = 300
+obstacle = [{ kind = "box", from = [2.1, -3.3, 2.7], to = [7.9, 6.3, 8.2] }]
+)",
+                                  "");
+  for (const Vec<3>& place : start_state<3>(space, 1).positions) {
+    const Vec<3> low(2.1, -3.3, 2.7), high(7.9, 6.3, 8.2);
+    const Vec<3> outside = (low - place).cwiseMax(place - high);
+    // The box has an image along y, from 6.7 on.
+    const Vec<3> image = (low + Vec<3>(0, 10, 0) - place).cwiseMax(place - high - Vec<3>(0, 10, 0));
+    CHECK(outside.cwiseMax(0.0).norm() >= 0.5);
+    CHECK(image.cwiseMax(0.0).norm() >= 0.5);
+  }
+  for (const std::string seen : {"a", "b"}) {
+    CAPTURE(seen);
+    const Scene membrane = parse_scene(R"(box.size = [20, 20]
+species = [{ name = "a", count = 75 }, { name = "b", count = 75 }]
+partition = [{ axis = "x", position = 10, passes = [")" +
+                                           std::string(seen == "a" ? "b" : "a") + "\"] }]\n",
+                                       "");
+    const State<2> start = start_state<2>(membrane, 2);
+    CHECK_NOTHROW(Simulation<2>(model_of<2>(membrane, 2), start));
+    int across = 0;
+    for (std::size_t i = 0; i < start.positions.size(); ++i) {
+      across += std::fabs(start.positions[i].x() - 10.0) < 0.5;
+    }
+    CHECK(across > 0);  // of the species that passes
+  }
 }
 
 // A wall is put where particles are: the run ends, and says which.
