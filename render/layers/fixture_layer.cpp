@@ -13,15 +13,15 @@ namespace clatter {
 namespace {
 
 // Must match fixture.frag.
-enum Pattern { kPlain, kTeeth, kHatch, kGlow };
-constexpr double kToothPeriod = 0.75;  // of the thickness of the band
+enum class Mark { Plain, Teeth, Hatch, Glow };
+constexpr double kToothLength = 0.75;  // of the thickness of the band
 
-Pattern pattern_of(WallKind kind) {
-  if (kind == WallKind::Thermal) return kGlow;
-  return kind == WallKind::Driven ? kTeeth : kHatch;
+Mark mark_of(WallKind kind) {
+  if (kind == WallKind::Thermal) return Mark::Glow;
+  return kind == WallKind::Driven ? Mark::Teeth : Mark::Hatch;
 }
 
-double line_width(const Projection& projection) {
+double outline_width(const Projection& projection) {
   return projection.samples * std::max(1.0, std::round(wall_thickness(projection.size) / 10.0));
 }
 
@@ -90,10 +90,10 @@ FixtureLayer::Body FixtureLayer::body_of(const FixtureLaw& law, const Snapshot& 
   if (wall.kind == WallKind::Driven) {
     // As of walls, see WallLayer.
     periods =
-        0.5 * wall.drive_speed * snapshot.time * projection.scale() / (kToothPeriod * thickness);
+        0.5 * wall.drive_speed * snapshot.time * projection.scale() / (kToothLength * thickness);
   }
   Body body{};
-  body.marks = {static_cast<float>(pattern_of(wall.kind)), static_cast<float>(thickness),
+  body.marks = {static_cast<float>(mark_of(wall.kind)), static_cast<float>(thickness),
                 static_cast<float>(outline / teeth),
                 static_cast<float>(periods - std::floor(periods))};
   body.fill = {0, 0, 0, 0};
@@ -177,7 +177,7 @@ void FixtureLayer::add_partition(const Partition& partition, const Snapshot& sna
   constexpr double kWidth = 2.5;  // of outlines
   const int across = static_cast<int>(partition.axis), along = 1 - across;
   const double scale = projection.scale();
-  const double width = kWidth * line_width(projection);
+  const double width = kWidth * outline_width(projection);
   const double thickness = 0.6 * projection.samples * wall_thickness(projection.size);
   // The ends at walls and edges of the picture are outside of the drawn extent.
   const double reach = (thickness + width) / scale;
@@ -190,7 +190,9 @@ void FixtureLayer::add_partition(const Partition& partition, const Snapshot& sna
     high[along] = to;
     const double outline = 2.0 * ((to - from) * scale + width);
     Body body = body_of(partition.law, snapshot, projection, colours, thickness, outline);
-    if (partition.law.wall().kind == WallKind::Static) body.marks[0] = kPlain;
+    if (partition.law.wall().kind == WallKind::Static) {
+      body.marks[0] = static_cast<float>(Mark::Plain);
+    }
     body.marks[3] = 1.0f - body.marks[3];  // away from the line
     if (!partition.passes.empty()) {
       body.counts[1] = static_cast<float>((along == 0 ? 4.0 : -4.0) * width);
@@ -240,7 +242,7 @@ void FixtureLayer::draw(const Snapshot& snapshot, const Projection& projection,
   program_.use();
   gl_->Uniform2f(program_.uniform("u_size"), drawn.width, drawn.height);
   gl_->Uniform1i(program_.uniform("u_corners"), 0);
-  gl_->Uniform1f(program_.uniform("u_line"), line_width(projection));
+  gl_->Uniform1f(program_.uniform("u_line"), outline_width(projection));
   gl_->Uniform2f(program_.uniform("u_box_low"), low.x(), low.y());
   gl_->Uniform2f(program_.uniform("u_box_high"), high.x(), high.y());
   gl_->Uniform1f(program_.uniform("u_faintness"), tiling.faintness);
