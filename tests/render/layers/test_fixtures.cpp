@@ -58,14 +58,14 @@ Hole hole_between(double from, double to) {
   return {{from}, {to}};
 }
 
-View plain_view() {
+View fixture_view() {
   View view;
   view.overlay = false;
   view.range = {ColourRange::Given, {0.0, 4.0}};
   return view;
 }
 
-Image picture_of(const Snapshot& snapshot, const View& view = plain_view(), int samples = 1) {
+Image picture_of(const Snapshot& snapshot, const View& view = fixture_view(), int samples = 1) {
   const auto context = open_context(Backend::Auto);
   Renderer renderer(context->gl(), samples);
   return draw(renderer, context->gl(), snapshot, kFixtureCamera, kFixtureSize, view);
@@ -99,7 +99,7 @@ double covered_area(const Image& image) {
 }
 
 View light_view() {
-  View view = plain_view();
+  View view = fixture_view();
   view.background = Rgb{255, 255, 255};
   return view;
 }
@@ -240,7 +240,7 @@ TEST_CASE("Fixtures: only the teeth of a driven body move") {
 TEST_CASE("Fixtures: a body covers the heatmap") {
   Snapshot snapshot = empty_box();
   snapshot.obstacles = {ball_at(Vec2(20.0, 15.0), 6.0)};
-  View view = plain_view();
+  View view = fixture_view();
   const Image alone = picture_of(snapshot, view);
   view.field = Quantity::Density;
   view.field_style = FieldStyle::Cells;
@@ -286,7 +286,7 @@ TEST_CASE("Fixtures: copies of a periodic box have faint fixtures") {
   snapshot.walls[kLeft] = snapshot.walls[kRight] = std::nullopt;
   snapshot.obstacles = {ball_at(Vec2(5.0, 15.0), 3.0)};
   snapshot.partitions = {across(Axis::Y, 25.0, {hole_between(4.0, 6.0)})};
-  View view = plain_view();
+  View view = fixture_view();
   view.tiling = true;
   const Image image = picture_of(snapshot, view);
   const Colour body = colour_at(image, 5.0, 15.0), copy = colour_at(image, 25.0, 15.0);
@@ -305,7 +305,7 @@ TEST_CASE("Fixtures: without a background bodies are opaque") {
   Snapshot snapshot = empty_box();
   snapshot.obstacles = {ball_at(Vec2(20.0, 15.0), 6.0)};
   const Image image =
-      draw(renderer, context->gl(), snapshot, kFixtureCamera, kFixtureSize, plain_view());
+      draw(renderer, context->gl(), snapshot, kFixtureCamera, kFixtureSize, fixture_view());
   CHECK(colour_at(image, 20.0, 15.0).alpha == 255);
   CHECK(colour_at(image, 30.0, 15.0).alpha == 0);
 }
@@ -425,7 +425,7 @@ TEST_CASE("Fixtures in space: the faces of a box do not cover its edges") {
   Renderer renderer(context->gl(), 4);
   Camera turned = kFixtureCamera;
   turned.orbit = {.z = 10.0, .azimuth = 30.0, .elevation = 20.0, .view_angle = 30.0};
-  const Image image = draw(renderer, context->gl(), snapshot, turned, kFixtureSize, plain_view());
+  const Image image = draw(renderer, context->gl(), snapshot, turned, kFixtureSize, fixture_view());
   const Eye eye({turned, kFixtureSize});
   const Colour edge = mix(kDarkTheme.static_wall, kDarkTheme.text, 0.45);
   const Vec3 corner(30.0, 22.0, 15.0);
@@ -444,7 +444,7 @@ TEST_CASE("Fixtures in space: a slab and the walls cut bodies") {
   Snapshot snapshot = empty_space();
   snapshot.obstacles = {box_between(Vec3(5.0, 10.0, 2.0), Vec3(15.0, 20.0, 6.0)),
                         ball_at(Vec3(39.0, 15.0, 10.0), 5.0)};
-  View view = plain_view();
+  View view = fixture_view();
   const Image whole = picture_of(snapshot, view);
   view.slab = Slab{Axis::Z, 8.0, 12.0};
   const Image cut = picture_of(snapshot, view);
@@ -481,7 +481,7 @@ TEST_CASE("Fixtures: OpenGL ES draws them as OpenGL does") {
   turned.orbit = {.z = 10.0, .azimuth = 30.0, .elevation = 20.0, .view_angle = 30.0};
   const auto pictures = [&](const Gl& gl) {
     Renderer renderer(gl);
-    const View view = plain_view();
+    const View view = fixture_view();
     return std::pair(draw(renderer, gl, flat, kFixtureCamera, kFixtureSize, view),
                      draw(renderer, gl, space, turned, kFixtureSize, view));
   };
