@@ -193,8 +193,8 @@ zip = [["bulk_drive.kick_speed", "measure.burn_in", "measure.duration"]]
   return study;
 }
 
-// Without an opinion of its own each replica chooses one of the halves, so the imbalance has the
-// magnitude of the difference. Near the transition a gas needs long to split.
+// Each replica chooses one of the halves by chance, so the imbalance is the magnitude of the
+// difference. Near the transition a gas needs long to split.
 Study demon_study(int dimension) {
   const bool disks = dimension == 2;
   Study study;

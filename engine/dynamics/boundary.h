@@ -27,7 +27,8 @@ std::array<WallMotion, 2 * D> wall_motions(const Model<D>& model);
 template <int D>
 bool keeps_flights(const Model<D>& before, const Model<D>& after);
 
-/// The same for the flights of a saved run, whose plans are made anew. Fixtures may differ.
+/// Whether the flights of a saved run continue under other laws: gravity and the motions of all
+/// walls are the same. Its events are predicted again, so its fixtures may differ.
 template <int D>
 bool keeps_flights(const RunState<D>& saved, const Model<D>& after);
 

@@ -92,7 +92,7 @@ static double zero_between(const Function& function, double before, double after
 template <int D>
 FallTimes fall_times(const Vec<D>& x, const Vec<D>& v, const Vec<D>& g, double distance) {
   const double c1 = x.dot(v), c2 = v.squaredNorm() + x.dot(g), c3 = v.dot(g), c4 = g.squaredNorm();
-  // Half the difference of the squared distances, and its derivative.
+  // The squared distance minus that of contact, and half its derivative.
   const auto gap = [&](double t) {
     return (x + (v + g * (0.5 * t)) * t).squaredNorm() - distance * distance;
   };

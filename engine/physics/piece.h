@@ -32,6 +32,7 @@ struct Piece {
   double distance(const Vec<D>& position) const;
   /// Its lowest and highest coordinates.
   std::pair<Vec<D>, Vec<D>> bounds() const;
+  /// Whether particles touch both at the same places.
   bool operator==(const Piece& other) const;
   /// Unit vector at the contact with a particle, from the piece to the centre.
   Vec<D> normal_at(const Vec<D>& position) const;
@@ -41,7 +42,7 @@ struct Piece {
 template <int D>
 Piece<D> ball_piece(const Vec<D>& centre, double radius);
 
-/// A segment or rectangle with one corner and the edges from there, at right angles.
+/// A segment or rectangle: one corner, and the edges from there, at right angles to each other.
 template <int D>
 Piece<D> flat_piece(const Vec<D>& corner, const std::vector<Vec<D>>& edges);
 
