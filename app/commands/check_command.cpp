@@ -16,6 +16,7 @@
 #include "engine/dynamics/tile_sizes.h"
 #include "engine/physics/theory.h"
 #include "engine/scene/act_checks.h"
+#include "engine/scene/enum_names.h"
 #include "engine/system/allocation.h"
 #include "engine/text.h"
 
@@ -91,6 +92,20 @@ void print_fixtures(const Scene& scene) {
   }
 }
 
+void print_piston(const Scene& scene) {
+  if (!scene.piston) return;
+  int below = 0;
+  const std::size_t kinds = std::max<std::size_t>(scene.species.size(), 1);
+  for (std::size_t k = 0; k < kinds; ++k) below += count_left(scene, k);
+  const bool from_file = scene.particles.start.layout == Layout::File;
+  const std::string sides = from_file
+                                ? std::string()
+                                : " between " + std::to_string(below) + " and " +
+                                      std::to_string(scene.particles.count - below) + " particles";
+  std::fprintf(stderr, "Piston: a free body along %s%s; the gas runs on one thread.\n",
+               std::string(name_of(scene.piston->axis, kAxes)).c_str(), sides.c_str());
+}
+
 void print_packing(const Scene& scene) {
   const double most = compressed_fraction(scene), closest = closest_packing(scene.dimension());
   if (most <= closest) return;
@@ -119,6 +134,7 @@ int check(const CommonOptions& options) {
   print_events(scene, options.until.value_or(scene.measure.burn_in + scene.measure.duration));
   print_packing(scene);
   print_fixtures(scene);
+  print_piston(scene);
   print_allocation();
   print_way(scene);
   print_parts(scene);

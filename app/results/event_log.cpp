@@ -95,9 +95,10 @@ template <int D>
 void append_record(std::vector<double>& records, const Model<D>& model, double time,
                    const WallCollision<D>& collision, bool spins) {
   const ParticleChange<D>& change = collision.particle;
-  records.insert(records.end(),
-                 {time, collision.at_wall() ? 1.0 + collision.side : 7.0 + collision.fixture,
-                  static_cast<double>(change.particle), -1.0});
+  // A box with a piston has no fixtures.
+  const double fixture = collision.at_piston() ? 0.0 : collision.fixture;
+  records.insert(records.end(), {time, collision.at_wall() ? 1.0 + collision.side : 7.0 + fixture,
+                                 static_cast<double>(change.particle), -1.0});
   const Vec<D> none = Vec<D>::Constant(kNone);
   add(records, model.domain().wrapped(change.position));
   add(records, none);

@@ -72,6 +72,17 @@ std::vector<std::pair<std::string, Estimate>> estimates_of(const Measured& measu
       add(place + "hits" + (species.empty() ? "" : '.' + species), rate);
     }
   }
+  if (const auto& piston = measured.piston) {
+    add("piston.position", piston->position);
+    add("piston.variance", piston->variance);
+    add("piston.temperature", piston->temperature);
+    add("piston.force_left", piston->force_left);
+    add("piston.force_right", piston->force_right);
+    add("piston.hits_left", piston->hits_left);
+    add("piston.hits_right", piston->hits_right);
+    add("piston.power", piston->power);
+    add("piston.dissipated", piston->dissipated);
+  }
   if (const auto& compartments = measured.compartments) {
     add("compartments.count_left", compartments->count_left);
     add("compartments.share_left", compartments->share_left);
@@ -164,6 +175,19 @@ static Json balance_json(const Residuals& residuals) {
   return json;
 }
 
+// A density in bins of equal width from 0 to 1.
+static Json distribution_json(const std::vector<Estimate>& bins) {
+  Json json;
+  for (std::size_t k = 0; k < bins.size(); ++k) {
+    const auto count = static_cast<double>(bins.size());
+    json["edges"].push_back(static_cast<double>(k) / count);
+    json["density"].push_back(bins[k].mean);
+    json["standard_error"]["density"].push_back(bins[k].standard_error);
+  }
+  json["edges"].push_back(1.0);
+  return json;
+}
+
 template <int D>
 Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<D>& simulation,
                  const Measured& measured, const Performance& performance) {
@@ -196,6 +220,8 @@ Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<D>& si
   if (measured.profile) json["profile"] = profile_json(*measured.profile);
   if (measured.compartments) {
     json["compartments"]["share_left_series"] = measured.compartments->share_left_series;
+    json["compartments"]["share_left_distribution"] =
+        distribution_json(measured.compartments->distribution);
   }
   for (const ResultTable& table : measured.tables()) add_table(json, table);
   if (measured.residuals) json["balance"] = balance_json(*measured.residuals);

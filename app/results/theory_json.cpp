@@ -58,6 +58,37 @@ std::optional<Atmosphere> atmosphere(const Scene& scene) {
                     scene.dimension()};
 }
 
+std::optional<TwoCompartments> two_compartments(const Scene& scene) {
+  const Particles& particles = scene.particles;
+  const auto is = [&](Side side, WallKind kind) {
+    return scene.walls[side] && scene.walls[side]->kind == kind;
+  };
+  const bool walled = is(kLeft, WallKind::Static) && is(kRight, WallKind::Static) &&
+                      is(kTop, WallKind::Static) && is(kBottom, WallKind::Driven);
+  const bool alone = scene.partitions.size() == 1 && scene.obstacles.empty() && !scene.bulk_drive &&
+                     scene.species.empty() && !scene.spins();
+  if (scene.dimension() != 2 || !walled || !alone || !scene.gravity || particles.count == 0 ||
+      particles.restitution == 1.0) {
+    return std::nullopt;
+  }
+  const Wall& floor = *scene.walls[kBottom];
+  const Partition& wall = scene.partitions.front();
+  const double gravity = -scene.gravity->y(), width = 0.5 * scene.box.x();
+  const bool falls = gravity > 0.0 && scene.gravity->x() == 0.0;
+  const bool halves = wall.present && wall.axis == Axis::X && wall.position == width;
+  const bool open = wall.holes.size() == 1 && wall.holes[0].to[0] == scene.box.y();
+  if (!falls || !halves || !open || !(floor.drive_speed > 0.0) || floor.restitution > 1.0) {
+    return std::nullopt;
+  }
+  return TwoCompartments{static_cast<double>(particles.count),
+                         width,
+                         particles.restitution,
+                         floor.drive_speed,
+                         floor.restitution,
+                         gravity,
+                         wall.holes[0].from[0]};
+}
+
 // (theory 7.5-7.16)
 static void add_vibrated(Json& json, const VibratedGas& gas, double start_temperature) {
   json["psi"] = gas.psi();
@@ -149,6 +180,7 @@ Json theory_json(const Scene& scene) {
     add_vibrated(json, *gas, scene.particles.start.temperature);
   }
   if (is_homogeneous_gas(scene)) add_homogeneous(json, scene);
+  if (const auto gas = two_compartments(scene)) json["imbalance"] = 2.0 * gas->fuller_share() - 1.0;
   return json;
 }
 

@@ -5,6 +5,7 @@
 
 #include "engine/physics/atmosphere.h"
 #include "engine/physics/theory.h"
+#include "engine/physics/two_compartments.h"
 #include "engine/scene/scene.h"
 
 namespace clatter {
@@ -17,6 +18,11 @@ std::optional<VibratedGas> vibrated_gas(const Scene& scene);
 /// the other walls are periodic, elastic and static, or as hot as the floor, and no other force
 /// acts.
 std::optional<Atmosphere> atmosphere(const Scene& scene);
+
+/// The two compartments of a scene: smooth inelastic disks that fall on a driven floor, between
+/// static walls, with one partition in the middle that is open from some height to the top. Absent
+/// for other scenes.
+std::optional<TwoCompartments> two_compartments(const Scene& scene);
 
 /// Whether the gas has neither walls nor a drive and loses energy in collisions.
 bool cools_freely(const Scene& scene);

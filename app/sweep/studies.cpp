@@ -223,6 +223,7 @@ replicas = 8
        {.x = "particles.restitution",
         .y = "compartments.imbalance",
         .by = "particles.count",
+        .theory = disks,
         .y_label = "|N_left - N_right|/N",
         .title = "Maxwell's demon: a granular gas splits by itself",
         .caption =

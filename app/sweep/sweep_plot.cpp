@@ -99,14 +99,15 @@ struct Theory {
   LineStyle style;
 };
 
-constexpr std::array<Theory, 6> kTheories = {
+constexpr std::array<Theory, 7> kTheories = {
     {{"temperature", "", "theory.temperature_simple", "simple theory", LineStyle::Dotted},
      {"temperature", "", "theory.temperature_refined", "refined theory", LineStyle::Dashed},
      {"temperature", "", "theory.temperature_corrected", "corrected theory", LineStyle::Solid},
      {"temperature", "", "theory.temperature_driven", "kinetic theory", LineStyle::Solid},
      {"spin_temperature", "temperature", "theory.temperature_ratio", "kinetic theory",
       LineStyle::Solid},
-     {"pressure.virial", "", "theory.compressibility", "kinetic theory", LineStyle::Solid}}};
+     {"pressure.virial", "", "theory.compressibility", "kinetic theory", LineStyle::Solid},
+     {"compartments.imbalance", "", "theory.imbalance", "flux theory", LineStyle::Dashed}}};
 
 // The quantity with the theory's column in place of the measured columns. Absent if the quantity
 // does not contain these.

@@ -24,7 +24,8 @@ static std::vector<Change> take_acts(std::vector<Change>& changes,
   for (auto act = acts.rbegin(); act != acts.rend(); ++act) {
     const auto is_it = [&](const Change& change) {
       return change.nudge == act->nudge && change.puff == act->puff &&
-             change.piston == act->piston && change.set.empty();
+             change.piston == act->piston && change.reverse == act->reverse &&
+             change.set.empty();
     };
     const auto after = std::find_if(changes.rbegin(), changes.rend(), is_it).base();
     if (after == changes.begin()) continue;

@@ -102,6 +102,7 @@ std::string text_of(const Change& change) {
     text += fmt::format("\n{} particles added within {:.4g} of {}", change.puff->count,
                         change.puff->radius, text_of(change.puff->centre));
   }
+  if (change.reverse) text += "\nAll velocities reversed";
   if (change.piston) text += fmt::format("\nPiston to x = {:.6g}", *change.piston);
   return text;
 }

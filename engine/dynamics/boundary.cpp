@@ -81,23 +81,23 @@ double Boundary<D>::touching_place(int side, double radius, double time) const {
 // the flight.
 template <int D>
 double Boundary<D>::contact_time(int side, const Flight<D>& flight, double radius,
-                                 double now) const {
+                                 const Vec<D>& acceleration, double now) const {
   const bool piston = side == kRight && piston_;
   const int axis = side / 2;
   const double plane = model_.wall_plane(axis, side % 2, radius);
   if (!motions_[side] && !piston) {
-    return plane_contact_time<D>(flight, axis, plane, inward(side), model_.gravity);
+    return plane_contact_time<D>(flight, axis, plane, inward(side), acceleration);
   }
   const auto contact_from = [&](double time, double rest_velocity) {
     const double rest = plane + inward(side) * (piston ? stroke_.travel(time) : 0.0);
-    const double distance = inward(side) * (flight.at(time, model_.gravity)[axis] - rest);
-    const double speed = inward(side) * flight.velocity_at(time, model_.gravity)[axis];
-    const double acceleration = inward(side) * model_.gravity[axis];
+    const double distance = inward(side) * (flight.at(time, acceleration)[axis] - rest);
+    const double speed = inward(side) * flight.velocity_at(time, acceleration)[axis];
+    const double inwards = inward(side) * acceleration[axis];
     if (!motions_[side] && rest_velocity == 0.0) {
-      return time + fall_time(distance, speed, acceleration);
+      return time + fall_time(distance, speed, inwards);
     }
     return moving_wall_contact(motions_[side].value_or(WallMotion{}), time, distance, speed,
-                               acceleration, rest_velocity);
+                               inwards, rest_velocity);
   };
   // A move of the base rounds the wall's phase again. A particle that left the wall within rounding
   // then seems to touch it in the past. A contact in the past is not an event.

@@ -27,6 +27,7 @@ static const Fixture<D>& fixture_of(const Model<D>& model, std::uint32_t piece) 
 template <int D>
 static std::string partner_name(const Model<D>& model, std::uint32_t partner) {
   if (partner < kPiece) return "particle " + std::to_string(partner);
+  if (partner == kPiston) return "the piston";
   if (partner < kWall) return fixture_of(model, partner - kPiece).name;
   return std::string("the ") + kSideNames[partner - kWall] + " wall";
 }
@@ -41,8 +42,8 @@ static bool gains(const Model<D>& model) {
 // Whether walls with restitution > 1 heat the gas without bound. The criterion: within the mean
 // collision time known so far, a particle would cross the box a thousand times.
 template <int D>
-static bool diverges(const Model<D>& model, const Watchdog& watchdog, double temperature) {
-  const double flight = std::sqrt(temperature) * watchdog.mean_collision_time();
+static bool diverges(const Model<D>& model, const Watchdog& watchdog, double speed) {
+  const double flight = speed / std::sqrt(D) * watchdog.mean_collision_time();
   return gains(model) && flight > 1e3 * model.box.maxCoeff();
 }
 
@@ -78,8 +79,13 @@ static double emission_of(const Model<D>& model) {
 // Speed that particles reach without walls: the larger of a fall across the box and a kick.
 template <int D>
 static double free_speed(const Model<D>& model) {
-  const double fall = std::sqrt(2.0 * model.gravity.cwiseAbs().dot(model.box));
-  return std::max(fall, model.bulk_drive ? model.bulk_drive->kick_speed : 0.0);
+  double fall = 2.0 * model.gravity.cwiseAbs().dot(model.box);
+  double speed = model.bulk_drive ? model.bulk_drive->kick_speed : 0.0;
+  if (model.free_piston) {
+    fall += 2.0 * std::fabs(model.free_piston->acceleration()) * model.box[model.free_piston->axis];
+    speed = std::max(speed, std::fabs(model.free_piston->speed));
+  }
+  return std::max(std::sqrt(fall), speed);
 }
 
 template <int D>
@@ -115,10 +121,10 @@ static PhysicalStop no_room(double time, double temperature) {
 }
 
 template <int D>
-PhysicalStop divergence(const Model<D>& model, double time, double temperature, bool compressed) {
-  if (compressed && !gains(model)) return no_room(time, temperature);
+PhysicalStop divergence(const Model<D>& model, double time, const Heat& heat, bool compressed) {
+  if (compressed && !gains(model)) return no_room(time, heat.temperature);
   return PhysicalStop("the temperature diverges at t = " + rounded(time) + ", having reached " +
-                      rounded(temperature) + ", a speed of " + rounded(std::sqrt(D * temperature)) +
+                      rounded(heat.temperature) + ", a speed of " + rounded(heat.speed) +
                       (gains(model) ? ": walls with restitution > 1 add more energy than the gas "
                                       "loses; lower this restitution"
                                     : ": walls add more energy than collisions take; lower a "
@@ -136,7 +142,7 @@ PhysicalStop crowding(const Model<D>& model, const Watchdog& watchdog, double ti
 
 template <int D>
 static const Wall* thermal_wall(const Model<D>& model, std::uint32_t partner) {
-  if (partner < kPiece) return nullptr;
+  if (partner < kPiece || partner == kPiston) return nullptr;
   const Wall& law =
       partner >= kWall ? *model.walls[partner - kWall] : fixture_of(model, partner - kPiece).law;
   return law.kind == WallKind::Thermal ? &law : nullptr;
@@ -144,9 +150,9 @@ static const Wall* thermal_wall(const Model<D>& model, std::uint32_t partner) {
 
 template <int D>
 PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double time,
-                        double temperature, bool compressed) {
-  if (diverges<D>(model, watchdog, temperature)) {
-    return divergence<D>(model, time, temperature, compressed);
+                        const Heat& heat, bool compressed) {
+  if (diverges<D>(model, watchdog, heat.speed)) {
+    return divergence<D>(model, time, heat, compressed);
   }
   const auto [particle, partner] = watchdog.busiest_pair();
   const std::string what = "time does not advance beyond t = " + rounded(time) + ": particle " +
@@ -178,11 +184,11 @@ template double usual_speed<2>(const Model<2>&, double);
 template double usual_speed<3>(const Model<3>&, double);
 template double fastest_speed<2>(const Model<2>&, double, bool);
 template double fastest_speed<3>(const Model<3>&, double, bool);
-template PhysicalStop divergence<2>(const Model<2>&, double, double, bool);
-template PhysicalStop divergence<3>(const Model<3>&, double, double, bool);
+template PhysicalStop divergence<2>(const Model<2>&, double, const Heat&, bool);
+template PhysicalStop divergence<3>(const Model<3>&, double, const Heat&, bool);
 template PhysicalStop crowding<2>(const Model<2>&, const Watchdog&, double);
 template PhysicalStop crowding<3>(const Model<3>&, const Watchdog&, double);
-template PhysicalStop standstill<2>(const Model<2>&, const Watchdog&, double, double, bool);
-template PhysicalStop standstill<3>(const Model<3>&, const Watchdog&, double, double, bool);
+template PhysicalStop standstill<2>(const Model<2>&, const Watchdog&, double, const Heat&, bool);
+template PhysicalStop standstill<3>(const Model<3>&, const Watchdog&, double, const Heat&, bool);
 
 }  // namespace clatter

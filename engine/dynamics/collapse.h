@@ -6,11 +6,17 @@
 
 namespace clatter {
 
+/// How hot a gas is.
+struct Heat {
+  double temperature = 0.0;  ///< granular temperature
+  double speed = 0.0;        ///< root of twice the kinetic energy over the mass of all particles
+};
+
 /// The error of a run whose simulation time no longer advances: cause, place, and the setting with
 /// which the run would continue. `compressed`: the piston moves in.
 template <int D>
 PhysicalStop standstill(const Model<D>& model, const Watchdog& watchdog, double time,
-                        double temperature, bool compressed);
+                        const Heat& heat, bool compressed);
 
 /// The error of a run whose particles have no room, so that collisions follow each other within
 /// the rounding of positions.
@@ -30,6 +36,6 @@ double fastest_speed(const Model<D>& model, double start_speed, bool piston);
 
 /// The error of a run in which walls make the speeds diverge. `compressed`: the piston moves in.
 template <int D>
-PhysicalStop divergence(const Model<D>& model, double time, double temperature, bool compressed);
+PhysicalStop divergence(const Model<D>& model, double time, const Heat& heat, bool compressed);
 
 }  // namespace clatter

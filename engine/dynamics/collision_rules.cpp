@@ -82,6 +82,36 @@ Departure<D> wall_outcome(const Model<D>& model, const Wall& spec, const Vec<D>&
   return departure;
 }
 
+// The piston is rigid: along its surface the wall rule holds, with the impulse of the piston's
+// mass.
+template <int D>
+PistonOutcome<D> piston_outcome(const Model<D>& model, double side, double velocity,
+                                const Arrival<D>& arrival, bool elastic) {
+  const FreePiston& piston = *model.free_piston;
+  const Wall& spec = piston.law_for(arrival.grain.species);
+  ContactLaw law = PairLaw{spec.restitution, spec.roughness}.contact();
+  if (elastic) law = {.restitution = std::max(law.restitution, 1.0)};
+  const Vec<D> normal = side * Vec<D>::Unit(piston.axis);
+  const double mass = arrival.grain.mass;
+  const double reduced = piston.pinned ? mass : mass / (1.0 + mass / piston.mass);
+  const double approach = std::max(0.0, side * velocity - arrival.velocity.dot(normal));
+  double away = law.restitution * approach;
+  if (elastic) {
+    const WallState state{.velocity = side * velocity,
+                          .acceleration = side * piston.acceleration()};
+    away = std::max(away, least_rebound<D>(model, spec, normal, state, approach));
+  }
+  const double impulse = approach > 0.0 || elastic ? reduced * (approach + away) : 0.0;
+  PistonOutcome<D> outcome;
+  outcome.momentum = side * impulse;
+  outcome.departure.velocity = arrival.velocity + (impulse / mass) * normal;
+  const MotionChange<D> friction = wall_friction<D>(arrival.velocity, outcome.departure.velocity,
+                                                    arrival.spin, normal, law, arrival.grain);
+  outcome.departure.velocity += friction.velocity;
+  outcome.departure.spin = arrival.spin + friction.spin;
+  return outcome;
+}
+
 template PairOutcome<2> pair_outcome<2>(const ContactLaw&, const Partners&, const Vec<2>&,
                                         const Vec<2>&, const Spin<2>&, bool);
 template PairOutcome<3> pair_outcome<3>(const ContactLaw&, const Partners&, const Vec<3>&,
@@ -90,5 +120,8 @@ template Departure<2> wall_outcome<2>(const Model<2>&, const Wall&, const Vec<2>
                                       const Arrival<2>&, bool);
 template Departure<3> wall_outcome<3>(const Model<3>&, const Wall&, const Vec<3>&, const WallState&,
                                       const Arrival<3>&, bool);
+
+template PistonOutcome<2> piston_outcome(const Model<2>&, double, double, const Arrival<2>&, bool);
+template PistonOutcome<3> piston_outcome(const Model<3>&, double, double, const Arrival<3>&, bool);
 
 }  // namespace clatter

@@ -48,4 +48,18 @@ template <int D>
 Departure<D> wall_outcome(const Model<D>& model, const Wall& law, const Vec<D>& normal,
                           const WallState& wall, const Arrival<D>& arrival, bool elastic);
 
+/// A particle that has hit the free piston, and the momentum along the piston's axis that the
+/// piston has lost.
+template <int D>
+struct PistonOutcome {
+  Departure<D> departure;
+  double momentum = 0.0;
+};
+
+/// Outcome for a particle that touches the free piston, which moves at a velocity (theory 13).
+/// `side` is 1 for a particle above the piston along its axis, and -1 below. `elastic` as above.
+template <int D>
+PistonOutcome<D> piston_outcome(const Model<D>& model, double side, double velocity,
+                                const Arrival<D>& arrival, bool elastic);
+
 }  // namespace clatter

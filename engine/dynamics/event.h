@@ -12,10 +12,11 @@
 namespace clatter {
 
 /// Values of Event::partner that are no particle: a piece of a fixture (kPiece + number), a wall
-/// (kWall + side), a border of the particle's cell (kCellBorder + side) or the border of its region
-/// (kCellBorder). Particle numbers are smaller.
+/// (kWall + side), the free piston, a border of the particle's cell (kCellBorder + side) or the
+/// border of its region (kCellBorder). Particle numbers are smaller.
 inline constexpr std::uint32_t kPiece = 0xffff0000u;
 inline constexpr std::uint32_t kWall = 0xffffffe0u;
+inline constexpr std::uint32_t kPiston = 0xffffffe8u;
 inline constexpr std::uint32_t kCellBorder = 0xfffffff0u;
 
 /// Border of its cell that a particle crosses: the axis, and the step along it, +1 or -1.

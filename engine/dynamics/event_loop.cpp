@@ -88,6 +88,11 @@ void EventLoop<D>::restart(RunState<D>&& saved) {
   near_ = Neighbourhood<D>(model_, grains_, static_cast<double>(gas_.particles.size()));
   set_alike();
   prediction_.set_laws();
+  piston_.reset();
+  if (model_.free_piston && saved.free_piston) {
+    piston_.emplace(*saved.free_piston, model_, boundary_, gas_.particles, grains_, near_);
+    set_piston_laws(false);
+  }
   until_base_moves_ = saved.until_base_moves;
   counts_ = saved.counts;
   checks_ = saved.checks;
@@ -121,6 +126,7 @@ void EventLoop<D>::set_laws(bool keeps_flights, const Vec<D>& gravity, double st
   begin_watch(start_speed, watchdog_ ? watchdog_->mean_collision_time() : 0.0, std::nullopt);
   set_alike();
   prediction_.set_laws();
+  if (piston_) set_piston_laws(true);
   if (keeps_flights) return;
   near_.set_fixtures(model_);
   for (std::size_t i = 0; i < gas_.particles.size(); ++i) {
@@ -230,6 +236,7 @@ void EventLoop<D>::save_to(RunState<D>& saved) const {
     saved.mean_collision_time = watchdog_->mean_collision_time();
     saved.watchdog = watchdog_->state();
   }
+  if (piston_) saved.free_piston = piston_->flight();
   saved.counts = counts_;
   saved.checks = checks_;
 }
@@ -274,6 +281,7 @@ bool EventLoop<D>::plan(Preparation& work, const StopRequest& pause) {
     if (plans_[i].time <= latest_) events.push_back({plans_[i].time, i, plans_[i].partner});
   }
   queue_.rebuild(events);
+  if (piston_) gather_piston();
   return true;
 }
 
@@ -288,6 +296,7 @@ void EventLoop<D>::move_base() {
   gas_.era = static_cast<std::uint32_t>((counts_.collisions() + counts_.kicks) >> 31);
   until_base_moves_ =
       std::max<std::uint64_t>(kMinEventsPerBase, kEventsPerBase * gas_.particles.size());
+  if (piston_) piston_->move_base(shift);
   if (watchdog_) watchdog_->on_base_moved(shift);
   for (Observer<D>* observer : observers_) observer->on_base_moved(shift);
 }
@@ -335,6 +344,12 @@ typename EventLoop<D>::Halt EventLoop<D>::advance(double stop, std::uint64_t col
   const bool prefetch = gas_.particles.size() >= kPrefetchPlansFrom;
   while (counts_.collisions() < collisions && counts_.steps() < steps) {
     const Event* next = queue_.top(live);
+    if (piston_ && piston_->next().time < (next ? next->time : kNever)) {
+      if (piston_->next().time > stop) return Halt::Time;
+      const Halt halt = process_piston();
+      if (halt != Halt::Limit) return halt;
+      continue;
+    }
     if (!next || next->time > stop) return Halt::Time;
     const Event event = *next;
     queue_.pop();
@@ -454,6 +469,12 @@ double EventLoop<D>::deepest_overlap_of(std::size_t number,
   if (fixtures.any()) {
     const double depth =
         fixtures.depth(model_.domain().wrapped(r), grain(i).radius, grain(i).species);
+    deepest = std::max(deepest, depth / model_.diameter);
+  }
+  if (piston_) {
+    const FreePiston& piston = *model_.free_piston;
+    const double distance = std::fabs(r[piston.axis] - piston_->flight().at(now_));
+    const double depth = 0.5 * piston.thickness + grain(i).radius - distance;
     deepest = std::max(deepest, depth / model_.diameter);
   }
   return std::max(deepest, overlap_with_walls(boundary_, i, r));

@@ -9,6 +9,7 @@
 
 #include "engine/dynamics/boundary.h"
 #include "engine/dynamics/collapse.h"
+#include "engine/dynamics/collision_rules.h"
 #include "engine/dynamics/event_queue.h"
 #include "engine/dynamics/grain_array.h"
 #include "engine/dynamics/large_array.h"
@@ -16,6 +17,7 @@
 #include "engine/dynamics/observer.h"
 #include "engine/dynamics/particle_states.h"
 #include "engine/dynamics/pausing_loop.h"
+#include "engine/dynamics/piston_motion.h"
 #include "engine/dynamics/prediction.h"
 #include "engine/dynamics/prefetch.h"
 #include "engine/dynamics/run_state.h"
@@ -112,6 +114,8 @@ class EventLoop {
   std::vector<NewVelocity<D>> velocities_after(const Nudge& nudge) const;
   /// Sets velocities as the result of a nudge or puff, and counts it. Then the base must move.
   void nudge(const std::vector<NewVelocity<D>>& velocities, std::uint64_t EventCounts::*count);
+  /// Changes the signs of all velocities and spins, and counts a nudge. Then the base must move.
+  void reverse();
   /// Notes that the piston begins a stroke. Then the base must move.
   void begin_stroke();
   /// Lets the watchdog begin anew, with this mean time between a particle's collisions. Few
@@ -178,6 +182,8 @@ class EventLoop {
   const EventCounts& counts() const { return counts_; }
   /// Extremes since the start of the run.
   const RunChecks& checks() const { return checks_; }
+  /// The flight of the free piston; null: there is none.
+  const PistonFlight* piston() const { return piston_ ? &piston_->flight() : nullptr; }
   /// Detects collapse; absent if the gas cannot collapse or diverge.
   const std::optional<Watchdog>& watchdog() const { return watchdog_; }
 
@@ -189,7 +195,7 @@ class EventLoop {
 
   /// What a particle touches that is no particle.
   struct Surface {
-    int side;               // the Side; WallCollision::kNoSide for a fixture
+    int side;               // the Side; WallCollision::kNoSide for a fixture or the piston
     std::uint32_t fixture;  // number in the model, without a side
     Vec<D> normal;          // towards the particle
     const Wall& law;
@@ -208,8 +214,18 @@ class EventLoop {
   void hit_fixture(std::uint32_t number, std::uint32_t piece, const IntVec<D>& image);
   [[gnu::always_inline]] inline void bounce(std::uint32_t number, const Motion& at,
                                             const Surface& surface);
+  [[gnu::always_inline]] inline Arrival<D> arrival_of(std::uint32_t number, const Vec<D>& velocity);
+  [[gnu::always_inline]] inline void depart(std::uint32_t number, const Motion& at,
+                                            const Surface& surface, const Departure<D>& departure,
+                                            bool elastic);
+  Halt process_piston();
+  void hit_piston(std::uint32_t number);
+  void fly_piston(PistonChange::Cause cause, double place, double velocity);
+  void gather_piston();
+  void set_piston_laws(bool report);
   bool within_contact_time(std::uint32_t number) const;
   bool is_too_fast(std::uint32_t number) const;
+  [[gnu::always_inline]] inline bool is_fast(double velocity) const;
   void enter_next_cell(std::uint32_t number);
   [[gnu::always_inline]] inline Motion motion_now(std::uint32_t number);
   void carry_remainder(std::uint32_t number, Vec<D>& position);
@@ -246,6 +262,7 @@ class EventLoop {
   double fastest_;                                      // speed limit, see fastest_speed()
   std::optional<Watchdog> watchdog_;  // absent if the gas cannot collapse or diverge
   std::int64_t prefetched_bucket_ = 0;
+  std::optional<PistonMotion<D>> piston_;  // absent: there is none
   std::vector<Observer<D>*> observers_;
   TileRecord<D>* record_ = nullptr;  // of a tile; null for the whole gas
   Vec<D> lower_ = Vec<D>::Zero();    // corner of the tile's subdomain
@@ -266,6 +283,7 @@ template <int D>
 void EventLoop<D>::schedule(std::uint32_t particle) {
   const Plan<D>& plan = plans_[particle];
   if (plan.time <= latest_) queue_.push({plan.time, particle, plan.partner});
+  if (piston_) piston_->renew(particle, plan.cell);
 }
 
 extern template class EventLoop<2>;

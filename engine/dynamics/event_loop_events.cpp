@@ -96,14 +96,19 @@ void EventLoop<D>::carry_remainder(std::uint32_t number, Vec<D>& position) {
   position = rounded;
 }
 
-// Begins a new flight at an event. A particle may become fast long after the base, for example in a
-// cold gas at a driven wall. It then would move noticeably within the rounding of times. In this
-// case the base moves at once.
+// Whether a body moves noticeably within the rounding of times. A particle may become fast long
+// after the base, for example in a cold gas at a driven wall. In this case the base moves at once.
+template <int D>
+bool EventLoop<D>::is_fast(double velocity) const {
+  constexpr double kFarthest = 16384.0;  // diameters in the time since the base: rounded by 2e-12
+  return std::fabs(velocity) * now_ > kFarthest * model_.diameter;
+}
+
+// Begins a new flight at an event.
 template <int D>
 void EventLoop<D>::renew_flight(std::uint32_t number, const Vec<D>& position,
                                 const Vec<D>& velocity) {
-  constexpr double kFarthest = 16384.0;  // diameters in the time since the base: rounded by 2e-12
-  if (velocity.cwiseAbs().maxCoeff() * now_ > kFarthest * model_.diameter) until_base_moves_ = 0;
+  if (is_fast(velocity.cwiseAbs().maxCoeff())) until_base_moves_ = 0;
   if (record_) note_stray(number, position);
   const Domain<D> domain = model_.domain();
   const Vec<D> image = domain.image_at(position);
@@ -193,15 +198,26 @@ void EventLoop<D>::collide(std::uint32_t first, std::uint32_t second, const IntV
     gas_.last_collisions[first] = gas_.last_collisions[second] = now_;
 }
 
-// Reflects or emits a particle that touches a surface, and reports it.
+template <int D>
+Arrival<D> EventLoop<D>::arrival_of(std::uint32_t number, const Vec<D>& velocity) {
+  return {velocity, spin(number), record_ ? record_->numbers[number] : number,
+          std::uint64_t{gas_.era} << 32 | gas_.particles[number].flight.number, grain(number)};
+}
+
+// Reflects or emits a particle that touches a surface.
 template <int D>
 void EventLoop<D>::bounce(std::uint32_t number, const Motion& at, const Surface& surface) {
   const bool elastic = within_contact_time(number) && surface.law.kind != WallKind::Thermal;
-  const Departure<D> departure = wall_outcome<D>(
-      model_, surface.law, surface.normal, surface.motion,
-      {at.v, spin(number), record_ ? record_->numbers[number] : number,
-       std::uint64_t{gas_.era} << 32 | gas_.particles[number].flight.number, grain(number)},
-      elastic);
+  depart(number, at, surface,
+         wall_outcome<D>(model_, surface.law, surface.normal, surface.motion,
+                         arrival_of(number, at.v), elastic),
+         elastic);
+}
+
+// Begins the flight of a particle that leaves a surface, and reports the collision.
+template <int D>
+void EventLoop<D>::depart(std::uint32_t number, const Motion& at, const Surface& surface,
+                          const Departure<D>& departure, bool elastic) {
   if (!observers_.empty()) {
     const Spin<D> spin_gain = departure.spin - spin(number);
     const Vec<D> gain = grain(number).mass * (departure.velocity - at.v);
@@ -266,6 +282,96 @@ void EventLoop<D>::hit_fixture(std::uint32_t number, std::uint32_t piece, const 
           model_.fixtures[fixture].law_for(grain(number).species),
           {},
           place - (grain(number).radius - beyond) * normal});
+}
+
+// The position is set to that of contact, as at a fixed wall.
+template <int D>
+void EventLoop<D>::hit_piston(std::uint32_t number) {
+  const FreePiston& piston = *model_.free_piston;
+  const PistonFlight& flight = piston_->flight();
+  const double place = flight.at(now_), velocity = flight.velocity_at(now_);
+  Motion at = motion_now(number);
+  const double side = at.r[piston.axis] < place ? -1.0 : 1.0;
+  const Vec<D> normal = side * Vec<D>::Unit(piston.axis);
+  const double radius = grain(number).radius;
+  const double touching = place + side * (0.5 * piston.thickness + radius);
+  const double beyond = side * (touching - at.r[piston.axis]);
+  checks_.deepest_overlap = std::max(checks_.deepest_overlap, beyond / model_.diameter);
+  at.r[piston.axis] = touching;
+  if (!gas_.remainders.empty()) gas_.remainders[number][piston.axis] = 0.0;
+  const bool elastic = within_contact_time(number);
+  const PistonOutcome<D> outcome =
+      piston_outcome<D>(model_, side, velocity, arrival_of(number, at.v), elastic);
+  depart(number, at,
+         {WallCollision<D>::kNoSide,
+          WallCollision<D>::kOfPiston,
+          normal,
+          piston.law_for(grain(number).species),
+          {},
+          at.r - radius * normal},
+         outcome.departure, elastic);
+  if (piston.pinned) return;
+  fly_piston(PistonChange::Cause::Particle, place, velocity - outcome.momentum / piston.mass);
+}
+
+// Begins a flight of the piston, and reports it.
+template <int D>
+void EventLoop<D>::fly_piston(PistonChange::Cause cause, double place, double velocity) {
+  const PistonFlight after{place, velocity, model_.free_piston->acceleration(), now_};
+  if (is_fast(velocity)) until_base_moves_ = 0;
+  const PistonChange change{now_, cause, piston_->flight(), after};
+  for (Observer<D>* observer : observers_) observer->on_piston(change);
+  piston_->fly(after);
+}
+
+template <int D>
+void EventLoop<D>::gather_piston() {
+  piston_->gather(
+      gas_.particles.size(), [this](std::uint32_t i) -> const IntVec<D>& { return plans_[i].cell; },
+      now_);
+}
+
+template <int D>
+typename EventLoop<D>::Halt EventLoop<D>::process_piston() {
+  const auto [time, cause, number] = piston_->next();
+  checks_.clock_steps_back = std::max(checks_.clock_steps_back, now_ - time);
+  now_ = std::max(now_, time);
+  if (cause == PistonMotion<D>::Cause::Particle) {
+    hit_piston(number);
+    prediction_.plan({number, &plans_[number]}, now_);
+    schedule(number);
+    return after({time, number, kPiston}, true);
+  }
+  ++counts_.cell_crossings;
+  if (cause == PistonMotion<D>::Cause::Zone) {
+    gather_piston();
+    return Halt::Limit;
+  }
+  const auto side = static_cast<int>(number);
+  fly_piston(PistonChange::Cause::Wall,
+             boundary_.touching_place(side, 0.5 * model_.free_piston->thickness, now_),
+             2.0 * Boundary<D>::inward(side) * boundary_.wall(side, now_).velocity -
+                 piston_->flight().velocity_at(now_));
+  return base_due() ? Halt::BaseDue : Halt::Limit;
+}
+
+// Takes the changed laws of the piston. A pinned piston loses its velocity.
+template <int D>
+void EventLoop<D>::set_piston_laws(bool report) {
+  const FreePiston& law = *model_.free_piston;
+  const PistonFlight& before = piston_->flight();
+  const double velocity = law.pinned ? 0.0 : before.velocity_at(now_);
+  const bool same =
+      before.acceleration == law.acceleration() && velocity == before.velocity_at(now_);
+  if (!same) {
+    const PistonFlight after{before.at(now_), velocity, law.acceleration(), now_};
+    const PistonChange change{now_, PistonChange::Cause::Laws, before, after};
+    if (report) {
+      for (Observer<D>* observer : observers_) observer->on_piston(change);
+    }
+    piston_->set_flight(after);
+  }
+  if (report) gather_piston();
 }
 
 // The total momentum stays: every particle loses the same velocity.
@@ -351,6 +457,27 @@ void EventLoop<D>::nudge(const std::vector<NewVelocity<D>>& velocities,
 }
 
 template <int D>
+void EventLoop<D>::reverse() {
+  for (std::uint32_t i = 0; i < gas_.particles.size(); ++i) {
+    const auto [r, v] = motion_now(i);
+    const Spin<D> gain = -2.0 * spin(i);
+    const Kick<D> kick{
+        now_,
+        change_of(gas_, i, grain(i), r, v, spin(i), Impulse<D>{-2.0 * grain(i).mass * v, gain}),
+        KickCause::Nudge};
+    for (Observer<D>* observer : observers_) observer->on_kick(kick);
+    renew_flight(i, r, -v);
+    add_spin(i, gain);
+  }
+  if (piston_) {
+    const PistonFlight& flight = piston_->flight();
+    fly_piston(PistonChange::Cause::Laws, flight.at(now_), -flight.velocity_at(now_));
+  }
+  ++counts_.nudges;
+  if (watchdog_) watchdog_.emplace(gas_.particles.size(), now_);
+}
+
+template <int D>
 void EventLoop<D>::begin_stroke() {
   ++counts_.strokes;
   watchdog_.emplace(gas_.particles.size(), now_);
@@ -380,6 +507,18 @@ template void EventLoop<2>::hit_wall(std::uint32_t, int);
 template void EventLoop<3>::hit_wall(std::uint32_t, int);
 template void EventLoop<2>::hit_fixture(std::uint32_t, std::uint32_t, const IntVec<2>&);
 template void EventLoop<3>::hit_fixture(std::uint32_t, std::uint32_t, const IntVec<3>&);
+template EventLoop<2>::Halt EventLoop<2>::process_piston();
+template EventLoop<3>::Halt EventLoop<3>::process_piston();
+template void EventLoop<2>::hit_piston(std::uint32_t);
+template void EventLoop<3>::hit_piston(std::uint32_t);
+template void EventLoop<2>::fly_piston(PistonChange::Cause, double, double);
+template void EventLoop<3>::fly_piston(PistonChange::Cause, double, double);
+template void EventLoop<2>::gather_piston();
+template void EventLoop<3>::gather_piston();
+template void EventLoop<2>::set_piston_laws(bool);
+template void EventLoop<3>::set_piston_laws(bool);
+template void EventLoop<2>::reverse();
+template void EventLoop<3>::reverse();
 template void EventLoop<2>::begin_stroke();
 template void EventLoop<3>::begin_stroke();
 template void EventLoop<2>::kick();

@@ -43,25 +43,39 @@ struct PairCollision {
   double undissipated = 0.0;           ///< energy that the TC model saved from dissipation
 };
 
-/// A collision of a particle with a wall of the box or with a fixture.
+/// A collision of a particle with a wall of the box, a fixture or the free piston.
 template <int D>
 struct WallCollision {
   static constexpr int kNoSide = -1;
+  static constexpr std::uint32_t kOfPiston = 0xffffffffu;
 
   double time = 0.0;  ///< on the moving base
-  int side = 0;       ///< the Side; kNoSide for a fixture
+  int side = 0;       ///< the Side; kNoSide for a fixture or the piston
   ParticleChange<D> particle;
   Vec<D> normal = Vec<D>::Zero();  ///< unit vector from the wall to the particle
-  std::uint32_t fixture = 0;       ///< number of the fixture in the model, without a side
+  std::uint32_t fixture = 0;       ///< number of the fixture in the model, or kOfPiston
   Vec<D> point = Vec<D>::Zero();   ///< of a fixture that is touched, at its place in the scene
 
   /// Whether it is with a wall of the box.
   bool at_wall() const { return side != kNoSide; }
+  /// Whether it is with the free piston.
+  bool at_piston() const { return !at_wall() && fixture == kOfPiston; }
   /// From the point that touches to the centre of the particle.
   Vec<D> branch() const { return particle.grain.radius * normal; }
 };
 
-/// Cause of a kick. A puff is a nudge of the particles that enter.
+/// A new flight of the free piston: after a hit, at a wall, or because its laws change or all
+/// velocities are reversed.
+struct PistonChange {
+  enum class Cause { Particle, Wall, Laws };
+
+  double time = 0.0;  ///< on the moving base
+  Cause cause = Cause::Particle;
+  PistonFlight before;  ///< flight that ends here
+  PistonFlight after;
+};
+
+/// Cause of a kick. A puff is a nudge of the particles that enter. A reversal is a nudge of all.
 enum class KickCause { BulkDrive, Nudge };
 
 /// A kick of one particle: a sudden change of its motion without a partner. Bulk driving kicks all
@@ -85,6 +99,8 @@ class Observer {
   virtual void on_wall(const WallCollision<D>&) {}
   /// A particle has been kicked. The simulation still holds its flight before the kick.
   virtual void on_kick(const Kick<D>&) {}
+  /// The free piston has begun a new flight. A hit is reported before, as on_wall().
+  virtual void on_piston(const PistonChange&) {}
   /// All times on the moving base have become smaller by `shift`.
   virtual void on_base_moved(double /*shift*/) {}
   /// The laws are about to become `next`, or particles are about to enter under the same laws. The

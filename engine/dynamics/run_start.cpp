@@ -26,6 +26,12 @@ RunState<D> first_state(const Model<D>& model, State<D> state, double start_time
     saved.flights.push_back({state.positions[i], state.velocities[i], 0.0, 0});
     saved.start_speed = std::max(saved.start_speed, state.velocities[i].norm());
   }
+  if (model.free_piston) {
+    const FreePiston& piston = *model.free_piston;
+    const PistonState start = state.piston.value_or(PistonState{piston.position, piston.speed});
+    saved.free_piston = {start.place, piston.pinned ? 0.0 : start.velocity, piston.acceleration(),
+                         0.0};
+  }
   saved.grains = std::move(state.grains);
   saved.spins = std::move(state.spins);
   state = {};  // frees the memory before the simulation allocates its own

@@ -29,6 +29,11 @@ static bool is_stroke(const PistonStroke& stroke) {
          std::isfinite(stroke.from + stroke.to + stroke.start + stroke.end + stroke.velocity());
 }
 
+static bool is_piston_flight(const PistonFlight& flight, double now) {
+  return flight.time <= now && std::isfinite(flight.place + flight.velocity + flight.acceleration +
+                                             flight.at(now) + flight.velocity_at(now));
+}
+
 template <int D>
 bool makes_sense(const RunState<D>& state) {
   const std::size_t count = state.flights.size();
@@ -49,6 +54,7 @@ bool makes_sense(const RunState<D>& state) {
          fits(state.grains) && fits(state.spins) && fits(state.last_collisions) &&
          fits(state.remainders) && std::ranges::all_of(state.wall_motions, is_motion) &&
          (!state.piston || is_stroke(*state.piston)) &&
+         (!state.free_piston || is_piston_flight(*state.free_piston, state.now)) &&
          std::ranges::all_of(state.phase_shifts, [](double s) { return std::isfinite(s); }) &&
          std::ranges::all_of(
              state.flights,

@@ -24,7 +24,7 @@ struct EventCounts {
   std::uint64_t pair_collisions = 0;
   std::uint64_t wall_collisions = 0;
   std::uint64_t kicks = 0;             ///< of bulk driving, each of all particles
-  std::uint64_t nudges = 0;            ///< of the scene's changes
+  std::uint64_t nudges = 0;            ///< of the scene's changes, and reversals
   std::uint64_t strokes = 0;           ///< of the piston, by the scene's changes
   std::uint64_t puffs = 0;             ///< of the scene's changes
   std::uint64_t law_changes = 0;       ///< of the scene's changes that are no acts; steps of ramps
@@ -62,7 +62,8 @@ struct RunState {
   /// Added to the phases of these motions, in periods: the result of changes of frequency.
   std::array<double, 2 * D> phase_shifts = {};
   std::optional<PistonStroke> piston;   ///< its last stroke, at simulation times; absent: none yet
-  LongTime base;                        ///< simulation time of the moving base
+  std::optional<PistonFlight> free_piston;  ///< absent: none
+  LongTime base;                            ///< simulation time of the moving base
   double now = 0.0;                     ///< on the base
   std::vector<Flight<D>> flights;       ///< [N] in original order
   std::vector<Grain> grains;            ///< [N], or empty: all are Model::grain()
@@ -132,6 +133,13 @@ void visit(Archive& io, PistonStroke& stroke) {
 }
 
 /// Visits all members, in order.
+template <class Archive>
+void visit(Archive& io, PistonFlight& flight) {
+  auto& [place, velocity, acceleration, time] = flight;
+  io(place, velocity, acceleration, time);
+}
+
+/// Visits all members, in order.
 template <class Archive, int D>
 void visit(Archive& io, Flight<D>& flight) {
   auto& [r, v, time, number] = flight;
@@ -148,10 +156,10 @@ void visit(Archive& io, Grain& grain) {
 /// Visits all members, in order, and requires that the state makes sense.
 template <class Archive, int D>
 void visit(Archive& io, RunState<D>& state) {
-  auto& [gravity, wall_motions, phase_shifts, piston, base, now, flights, grains, spins,
-         last_collisions, remainders, until_base_moves, mean_collision_time, watchdog, start_speed,
-         kick_interval, kick_origin, kicks_since_origin, era, counts, checks] = state;
-  io(gravity, wall_motions, phase_shifts, piston, base, now, flights, grains, spins,
+  auto& [gravity, wall_motions, phase_shifts, piston, free_piston, base, now, flights, grains,
+         spins, last_collisions, remainders, until_base_moves, mean_collision_time, watchdog,
+         start_speed, kick_interval, kick_origin, kicks_since_origin, era, counts, checks] = state;
+  io(gravity, wall_motions, phase_shifts, piston, free_piston, base, now, flights, grains, spins,
      last_collisions, remainders, until_base_moves, mean_collision_time, watchdog, start_speed,
      kick_interval, kick_origin, kicks_since_origin, era, counts, checks);
   io.require(makes_sense(state));

@@ -190,7 +190,8 @@ template <int D>
 void Simulation<D>::make_tiles() {
   foresight_ = std::make_unique<Foresight<D>>(model_, boundary_, loop_.grains(), particles().size(),
                                               threads_, tile_sizes_);
-  if (foresight_->tiles() < 2) foresight_.reset();
+  // Each hit of a free piston changes the contacts of particles far apart.
+  if (model_.free_piston || foresight_->tiles() < 2) foresight_.reset();
   until_tried_ = 0;
   way_is_open_ = foresight_ || in_tiles_;
 }
@@ -303,13 +304,19 @@ void Simulation<D>::attend_to(typename EventLoop<D>::Halt halt) {
   if (halt == EventLoop<D>::Halt::Diverges) {
     // The limit of a gas with a piston holds only while it moves in.
     const bool diverges = fastest_speed<D>(model_, start_speed_, false) < kNever || compresses();
-    if (diverges) throw divergence<D>(model_, time(), temperature(), compresses());
+    if (diverges) throw divergence<D>(model_, time(), heat(), compresses());
     allow_speed(loop_.fastest_now());
   }
   if (halt == EventLoop<D>::Halt::StandsStill) {
     if (crowded_) throw crowding<D>(model_, *loop_.watchdog(), time());
-    throw standstill<D>(model_, *loop_.watchdog(), time(), temperature(), compresses());
+    throw standstill<D>(model_, *loop_.watchdog(), time(), heat(), compresses());
   }
+}
+
+template <int D>
+Heat Simulation<D>::heat() const {
+  const double all = mass();
+  return {temperature(), all > 0.0 ? std::sqrt(2.0 * kinetic_energy() / all) : 0.0};
 }
 
 // Whether the piston moves into the box now.
@@ -359,6 +366,12 @@ bool Simulation<D>::run_until(double time, std::uint64_t collisions, std::uint64
 template <int D>
 void Simulation<D>::nudge(const Nudge& nudge) {
   set_velocities(loop_.velocities_after(nudge), &EventCounts::nudges);
+}
+
+template <int D>
+void Simulation<D>::reverse() {
+  loop_.reverse();
+  move_base();
 }
 
 template <int D>
@@ -492,6 +505,9 @@ State<D> Simulation<D>::state() const {
   state.spins.assign(spins().begin(), spins().end());
   state.grains.reserve(loop_.grains().size());
   loop_.grains().for_each([&](const Grain& grain) { state.grains.push_back(grain); });
+  if (const PistonFlight* piston = free_piston()) {
+    state.piston = {piston->at(base_time()), piston->velocity_at(base_time())};
+  }
   return state;
 }
 

@@ -96,6 +96,8 @@ class Simulation {
   /// Changes velocities now. All events up to now must have been processed, as after run_until().
   /// Throws PhysicalStop if a particle would be too fast; the state then is unchanged.
   void nudge(const Nudge& nudge);
+  /// Changes the signs of all velocities and spins now, as at a nudge.
+  void reverse();
   /// Gives the particles of a puff, which are at rest, their velocities now. As at a nudge, all
   /// events up to now must have been processed.
   void start_puff(const std::vector<NewVelocity<D>>& velocities);
@@ -154,6 +156,8 @@ class Simulation {
   double piston_travel() const {
     return boundary_.piston() ? boundary_.piston()->travel(time()) : 0.0;
   }
+  /// The flight of the free piston; null: there is none.
+  const PistonFlight* free_piston() const { return loop_.piston(); }
   /// Deepest overlap of two particles, or of a particle and a wall, at time(), as a share of the
   /// diameter; 0: none. Checks all particles. Throws Interrupted.
   double deepest_overlap(const StopRequest& stop = {}) const;
@@ -193,6 +197,7 @@ class Simulation {
   double next_kick() const;
   void move_base();
   bool compresses() const;
+  Heat heat() const;
   void allow_speed(double speed);
   void set_velocities(const std::vector<NewVelocity<D>>& velocities,
                       std::uint64_t EventCounts::*count);

@@ -23,6 +23,7 @@ std::uint64_t state_hash(const State<D>& state) {
   for (const Spin<D>& spin : state.spins) {
     for (const double component : spin) hash = mix(hash, component);
   }
+  if (state.piston) hash = mix(mix(hash, state.piston->place), state.piston->velocity);
   return hash;
 }
 

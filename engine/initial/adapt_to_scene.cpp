@@ -113,6 +113,7 @@ State<D> adapted_mixture(const State<D>& state, const Scene& scene, std::uint64_
 
 template <int D>
 State<D> adapt_to_scene(const State<D>& state, const Scene& scene, std::uint64_t seed) {
+  if (starts_divided(scene)) return start_state<D>(scene, seed);
   if (!scene.species.empty() && !state.grains.empty()) {
     State<D> fitted = adapted_mixture(state, scene, seed);
     return fitted.positions.empty() ? start_state<D>(scene, seed) : fitted;
@@ -122,7 +123,8 @@ State<D> adapt_to_scene(const State<D>& state, const Scene& scene, std::uint64_t
   const auto count = static_cast<std::size_t>(scene.particles.count);
   Random random(seed, Stream::Placement, 1, 0);
   const Room<D> room = scene.start_room<D>();
-  RandomInsertion<D> insertion(room, scene.particles.count, random, start_fixtures<D>(scene));
+  RandomInsertion<D> insertion(room, scene.particles.count, random,
+                               start_fixtures<D>(scene, corner));
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < state.positions.size() && kept.size() < count; ++i) {
     if (insertion.place_first(state.positions[i] - corner)) kept.push_back(i);

@@ -52,12 +52,19 @@ std::vector<PuffParticle<D>> puff_particles(const RunState<D>& state, const Puff
   const Vec<D> centre = puff.centre;
   const Vec<D> mean = puff.velocity ? Vec<D>(*puff.velocity) : Vec<D>(Vec<D>::Zero());
   const std::size_t species = find_species(laws.species, puff.species).value_or(0);
+  const auto is_in_piston = [&](const Vec<D>& point, double radius) {
+    if (!state.free_piston) return false;
+    const FreePiston& piston = *model.free_piston;
+    const double way = point[piston.axis] - state.free_piston->at(state.now);
+    return std::fabs(way) < 0.5 * piston.thickness + radius;
+  };
   std::vector<PuffParticle<D>> particles;
   for (int tries = 0; tries < kTries && static_cast<int>(particles.size()) < puff.count; ++tries) {
     const Vec<D> point = model.domain().wrapped(centre + point_in_ball<D>(puff.radius, random));
     const auto number = static_cast<int>(particles.size());
     const Grain grain =
         laws.species.empty() ? model.grain() : laws.grain(species, number, puff.count);
+    if (is_in_piston(point, grain.radius)) continue;
     if (!room.insert_if_free(point, grain.radius, grain.species)) continue;
     tries = 0;
     Vec<D> velocity = mean;

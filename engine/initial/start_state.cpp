@@ -1,9 +1,11 @@
 #include "engine/initial/start_state.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <deque>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -194,11 +196,11 @@ class Melting {
 }  // namespace
 
 template <int D>
-FixtureImages<D> start_fixtures(const Scene& scene) {
+FixtureImages<D> start_fixtures(const Scene& scene, const Vec<D>& corner) {
   if (!scene.has_fixtures()) return FixtureImages<D>();
   Domain<D> domain{.box = scene.box};
   for (int axis = 0; axis < D; ++axis) domain.periodic[axis] = scene.periodic(axis);
-  return FixtureImages<D>(fixtures_of<D>(scene), domain, scene.clear_corner());
+  return FixtureImages<D>(fixtures_of<D>(scene), domain, corner);
 }
 
 // The sites of a lattice that has at least so many outside of fixtures; empty: none has.
@@ -254,37 +256,40 @@ struct StartMaker::Work {
 
 namespace {
 
+/// Particles without overlaps in a room, made in parts.
 template <int D>
-class StartWork : public StartMaker::Work {
+class Placement {
  public:
-  StartWork(const Scene& scene, std::uint64_t seed, const StopRequest& stop)
-      : scene_(scene),
+  /// Work for a number of particles that are alike, or for `grains`. A part of the box has a seed
+  /// of its own. `corner` is that of the room in the box.
+  Placement(const Room<D>& room, const Vec<D>& corner, int count, std::vector<Grain> grains,
+            Layout layout, FixtureImages<D> fixtures, std::uint64_t seed, const StopRequest& stop)
+      : room_(room),
+        corner_(corner),
+        count_(count),
         seed_(seed),
         stop_(stop),
-        room_(scene.start_room<D>()),
-        fixtures_(start_fixtures<D>(scene)),
-        random_(seed, Stream::Placement, 0, 0) {
-    const Start& start = scene_.particles.start;
-    if (start.layout == Layout::File) return;
-    grains_ = grains_of(scene_);
-    if (start.layout != Layout::Random) {
-      positions_ = lattice_positions(room_, count(), seed_, fixtures_);
+        fixtures_(std::move(fixtures)),
+        random_(seed, Stream::Placement, 0, 0),
+        grains_(std::move(grains)) {
+    if (layout != Layout::Random) {
+      positions_ = lattice_positions(room_, count_, seed_, fixtures_);
     } else if (!have_equal_radii(grains_) || fixtures_.differ()) {
       begin_removal();
     } else if (fraction() <= kInsertionFraction<D>) {
-      insertion_.emplace(room_, count(), random_, fixtures_);
+      insertion_.emplace(room_, count_, random_, fixtures_);
     } else if (fixtures_.any()) {
       begin_removal();
     }
   }
 
-  bool advance(const StopRequest& pause) override {
+  bool advance(const StopRequest& pause) {
     if (removal_) {
       if (!removal_->advance(pause)) return false;
       positions_ = removal_->take();
       removal_.reset();
       if (positions_.empty()) {
-        const bool fits = !fixtures_.any() && lattice_capacity(room_) >= count();
+        const bool fits = !fixtures_.any() && lattice_capacity(room_) >= count_;
         throw UserError({}, "the particles have found no places without overlaps",
                         std::string("give fewer of them, or a larger box") +
                             (fits ? ", or set particles.start.layout = \"lattice\"" : ""));
@@ -317,36 +322,121 @@ class StartWork : public StartMaker::Work {
     return true;
   }
 
-  double progress() const override {
+  double progress() const {
     if (removal_) return removal_->progress();
-    if (insertion_) {
-      return static_cast<double>(insertion_->placed()) / std::max(1, count());
-    }
+    if (insertion_) return static_cast<double>(insertion_->placed()) / std::max(1, count_);
     if (melting_) return melting_->progress();
     return is_complete() ? 1.0 : 0.0;
   }
 
+  int count() const { return count_; }
+
+  // [count] places in the box, in the order of the grains.
+  std::vector<Vec<D>> take() {
+    // Places of equal particles may have an order in space; the species must be anywhere. Beside a
+    // membrane each place belongs to its particle.
+    if (!grains_.empty() && have_equal_radii(grains_) && !fixtures_.differ()) {
+      choose<D>(positions_, positions_.size(), random_);
+    }
+    if (grains_.empty()) number_by_rows<D>(positions_);
+    for (Vec<D>& position : positions_) position += corner_;
+    return std::move(positions_);
+  }
+
+ private:
+  std::array<bool, D> periodic() const {
+    std::array<bool, D> periodic{};
+    for (int axis = 0; axis < D; ++axis) periodic[axis] = !room_.walled[axis];
+    return periodic;
+  }
+  void begin_removal() {
+    const Grain alike{.radius = 0.5 * room_.diameter};
+    removal_.emplace(
+        Domain<D>{.box = room_.box, .periodic = periodic()},
+        grains_.empty() ? std::vector<Grain>(static_cast<std::size_t>(count_), alike) : grains_,
+        random_, fixtures_);
+  }
+  // Packing fraction of particles that all have the largest diameter.
+  double fraction() const {
+    const double d = room_.diameter, cube = D == 2 ? d * d : d * d * d;
+    return packing_fraction(D, count_ * cube / room_.box.prod());
+  }
+
+  bool is_complete() const { return static_cast<int>(positions_.size()) == count_; }
+
+  // Chooses sites of a lattice, which are the positions if it does not melt.
+  void choose_sites() {
+    sites_ = primitive_lattice(room_, count_);
+    const bool primitive = !sites_.empty();
+    if (!primitive) sites_ = face_centred_lattice(room_, count_);
+    choose<D>(sites_, static_cast<std::size_t>(count_), random_);
+    // A square lattice fits at every density of the fluid of disks, except in narrow rooms; there
+    // disks stay on their sites. A cubic lattice of spheres often does not fit, because it fills at
+    // most 0.52.
+    const bool melts = primitive || D == 3;
+    if (!melts || fraction() > kFluidFraction<D>) positions_ = std::move(sites_);
+  }
+
+  Room<D> room_;
+  Vec<D> corner_;
+  int count_;
+  std::uint64_t seed_;
+  StopRequest stop_;
+  FixtureImages<D> fixtures_;
+  Random random_;
+  std::vector<Grain> grains_;                    // of a mixture; empty: particles are alike
+  std::optional<OverlapRemoval<D>> removal_;     // the present part of the work, or none
+  std::optional<RandomInsertion<D>> insertion_;  // the present part of the work, or none
+  std::optional<Melting<D>> melting_;            // the same
+  std::vector<Vec<D>> sites_;                    // of the lattice that will melt
+  std::vector<Vec<D>> positions_;                // of the complete work
+};
+
+template <int D>
+class StartWork : public StartMaker::Work {
+ public:
+  StartWork(const Scene& scene, std::uint64_t seed, const StopRequest& stop)
+      : scene_(scene), seed_(seed), stop_(stop) {
+    if (is_from_file()) return;
+    grains_ = grains_of(scene_);
+    if (starts_divided(scene_)) {
+      place_beside(*divider_of(scene_));
+      return;
+    }
+    parts_.emplace_back(scene_.start_room<D>(), scene_.clear_corner(), scene_.particles.count,
+                        grains_, scene_.particles.start.layout,
+                        start_fixtures<D>(scene_, scene_.clear_corner()), seed_, stop_);
+  }
+
+  bool advance(const StopRequest& pause) override {
+    return std::ranges::all_of(parts_, [&](Placement<D>& part) { return part.advance(pause); });
+  }
+
+  double progress() const override {
+    double done = 0.0, all = 0.0;
+    for (const Placement<D>& part : parts_) {
+      done += part.progress() * part.count();
+      all += part.count();
+    }
+    return all > 0.0 ? done / all : 1.0;
+  }
+
   AnyState take() override {
     const Start& start = scene_.particles.start;
-    if (start.layout == Layout::File) return std::get<State<D>>(start.state);
-    State<D> state;
-    const Vec<D> corner = scene_.clear_corner();
+    if (is_from_file()) return std::get<State<D>>(start.state);
     if (!grains_.empty()) {
-      // Places of equal particles may have an order in space; the species must be anywhere. Beside a
-      // membrane each place belongs to its particle.
-      if (have_equal_radii(grains_) && !fixtures_.differ()) {
-        choose<D>(positions_, positions_.size(), random_);
-      }
-      for (Vec<D>& position : positions_) position += corner;
-      state = state_at_places<D>(positions_, grains_, start.temperature, seed_, stop_);
+      State<D> state =
+          state_at_places<D>(places_of_grains(), grains_, start.temperature, seed_, stop_);
       if (scene_.spins()) {
         state.spins = gaussian_spins<D>(state.grains, start.spin_temperature, seed_, stop_);
       }
       return state;
     }
-    state.positions = std::move(positions_);
-    number_by_rows<D>(state.positions);
-    for (Vec<D>& position : state.positions) position += corner;
+    State<D> state;
+    for (Placement<D>& part : parts_) {
+      const std::vector<Vec<D>> places = part.take();
+      state.positions.insert(state.positions.end(), places.begin(), places.end());
+    }
     state.velocities =
         gaussian_velocities<D>(state.positions.size(), start.temperature, seed_, stop_);
     if (scene_.spins()) {
@@ -357,55 +447,66 @@ class StartWork : public StartMaker::Work {
   }
 
  private:
-  int count() const { return scene_.particles.count; }
-  std::array<bool, D> periodic() const {
-    std::array<bool, D> periodic{};
-    for (int axis = 0; axis < D; ++axis) periodic[axis] = !room_.walled[axis];
-    return periodic;
-  }
-  void begin_removal() {
-    const Grain alike{.radius = 0.5 * room_.diameter};
-    removal_.emplace(
-        Domain<D>{.box = room_.box, .periodic = periodic()},
-        grains_.empty() ? std::vector<Grain>(static_cast<std::size_t>(count()), alike) : grains_,
-        random_, fixtures_);
-  }
-  // Packing fraction of particles that all have the largest diameter.
-  double fraction() const {
-    const double d = room_.diameter, cube = D == 2 ? d * d : d * d * d;
-    return packing_fraction(D, count() * cube / room_.box.prod());
+  bool is_from_file() const { return scene_.particles.start.layout == Layout::File; }
+
+  // The two sides of a divider are rooms of their own.
+  void place_beside(const Divider& divider) {
+    const int axis = divider.axis;
+    const std::size_t kinds = std::max<std::size_t>(scene_.species.size(), 1);
+    std::vector<int> below(kinds);
+    for (std::size_t k = 0; k < kinds; ++k) below[k] = count_left(scene_, k);
+    std::array<std::vector<Grain>, 2> grains;
+    for (std::size_t i = 0; i < grains_.size(); ++i) {
+      const bool is_below = below[grains_[i].species]-- > 0;
+      of_side_[is_below ? 0 : 1].push_back(i);
+      grains[is_below ? 0 : 1].push_back(grains_[i]);
+    }
+    const Vec<D> low = scene_.clear_corner(), high = low + Vec<D>(scene_.clear_box());
+    for (const int side : {0, 1}) {
+      Room<D> room = scene_.start_room<D>();
+      Vec<D> corner = low;
+      const double face = divider.position + (side == 0 ? -0.5 : 0.5) * divider.thickness;
+      if (side == 1) corner[axis] = face;
+      room.box[axis] = (side == 0 ? face : high[axis]) - corner[axis];
+      room.walled[axis] = true;
+      const int count = !grains_.empty() ? static_cast<int>(grains[side].size())
+                        : side == 0      ? below[0]
+                                         : scene_.particles.count - below[0];
+      if (count > 0 && (room.box[axis] <= room.diameter ||
+                        (grains_.empty() && lattice_capacity(room) < count))) {
+        throw UserError({},
+                        std::to_string(count) + " particles do not fit " +
+                            (side == 0 ? "below" : "above") + " the " +
+                            (scene_.piston ? "piston" : "partition"),
+                        "move it, change count_left, or give fewer particles");
+      }
+      if (count == 0) continue;
+      parts_.emplace_back(room, corner, count, grains[side], scene_.particles.start.layout,
+                          start_fixtures<D>(scene_, corner),
+                          seed_ + static_cast<std::uint64_t>(side), stop_);
+      sides_.push_back(side);
+    }
   }
 
-  bool is_complete() const {
-    return scene_.particles.start.layout == Layout::File ||
-           static_cast<int>(positions_.size()) == count();
-  }
-
-  // Chooses sites of a lattice, which are the positions if it does not melt.
-  void choose_sites() {
-    sites_ = primitive_lattice(room_, count());
-    const bool primitive = !sites_.empty();
-    if (!primitive) sites_ = face_centred_lattice(room_, count());
-    choose<D>(sites_, static_cast<std::size_t>(count()), random_);
-    // A square lattice fits at every density of the fluid of disks, except in narrow rooms; there
-    // disks stay on their sites. A cubic lattice of spheres often does not fit, because it fills at
-    // most 0.52.
-    const bool melts = primitive || D == 3;
-    if (!melts || fraction() > kFluidFraction<D>) positions_ = std::move(sites_);
+  // [N] the places of the particles of a mixture, in their order.
+  std::vector<Vec<D>> places_of_grains() {
+    if (sides_.empty()) return parts_.front().take();
+    std::vector<Vec<D>> places(grains_.size());
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      const std::vector<Vec<D>> part = parts_[k].take();
+      const std::vector<std::size_t>& numbers = of_side_[static_cast<std::size_t>(sides_[k])];
+      for (std::size_t i = 0; i < part.size(); ++i) places[numbers[i]] = part[i];
+    }
+    return places;
   }
 
   Scene scene_;
   std::uint64_t seed_;
   StopRequest stop_;
-  Room<D> room_;
-  FixtureImages<D> fixtures_;
-  Random random_;
-  std::vector<Grain> grains_;                    // of a mixture; empty: particles are alike
-  std::optional<OverlapRemoval<D>> removal_;     // the present part of the work, or none
-  std::optional<RandomInsertion<D>> insertion_;  // the present part of the work, or none
-  std::optional<Melting<D>> melting_;            // the same
-  std::vector<Vec<D>> sites_;                    // of the lattice that will melt
-  std::vector<Vec<D>> positions_;                // of the complete work
+  std::vector<Grain> grains_;       // of a mixture; empty: particles are alike
+  std::deque<Placement<D>> parts_;  // of the box: one, or those beside a divider with particles
+  std::vector<int> sides_;          // [parts] 0: below the divider, 1: above; empty without one
+  std::array<std::vector<std::size_t>, 2> of_side_;  // numbers of the grains below and above
 };
 
 }  // namespace
@@ -438,8 +539,8 @@ State<D> start_state(const Scene& scene, std::uint64_t seed, const StopRequest& 
   return std::get<State<D>>(maker.take());
 }
 
-template FixtureImages<2> start_fixtures(const Scene&);
-template FixtureImages<3> start_fixtures(const Scene&);
+template FixtureImages<2> start_fixtures(const Scene&, const Vec2&);
+template FixtureImages<3> start_fixtures(const Scene&, const Vec<3>&);
 template State<2> start_state(const Scene&, std::uint64_t, const StopRequest&);
 template State<3> start_state(const Scene&, std::uint64_t, const StopRequest&);
 

@@ -34,9 +34,9 @@ class StartMaker {
   std::unique_ptr<Work> work_;
 };
 
-/// The fixtures of a scene, for positions in its start_room().
+/// The fixtures of a scene, for positions in a room with its corner at this place.
 template <int D>
-FixtureImages<D> start_fixtures(const Scene& scene);
+FixtureImages<D> start_fixtures(const Scene& scene, const Vec<D>& corner);
 
 /// The state of a scene at time 0, a pure function of scene and seed. No particles overlap.
 /// Velocities are Gaussian with mean 0 (N >= 2) and exactly the start temperature. Spins, if the
@@ -48,8 +48,9 @@ FixtureImages<D> start_fixtures(const Scene& scene);
 /// with random vacancies. From 0.49 on a crystal of spheres is stable beside the fluid, and some of
 /// its order may remain. Species of one diameter have these places at random, and those of several
 /// diameters have the places of OverlapRemoval. Between fixtures random insertion comes first, and
-/// then OverlapRemoval. A lattice has no sites in fixtures. The scene must be validated: its count
-/// fits one of the lattices. Throws Interrupted.
+/// then OverlapRemoval. A lattice has no sites in fixtures. The two sides
+/// of a divider with numbers of particles are rooms of their own. The scene must be validated: its
+/// count fits one of the lattices. Throws Interrupted.
 template <int D>
 State<D> start_state(const Scene& scene, std::uint64_t seed, const StopRequest& stop = {});
 

@@ -11,6 +11,7 @@
 
 #include "engine/laws/domain.h"
 #include "engine/laws/fixture.h"
+#include "engine/laws/free_piston.h"
 #include "engine/laws/wall.h"
 #include "engine/physics/collision.h"
 #include "engine/physics/grain.h"
@@ -83,6 +84,7 @@ struct Model {
   Vec<D> box = Vec<D>::Zero();                   ///< edge lengths
   std::array<std::optional<Wall>, 2 * D> walls;  ///< indexed by Side; a pair absent: periodic
   std::vector<Fixture<D>> fixtures;              ///< bodies at rest in the box
+  std::optional<FreePiston> free_piston;         ///< absent: none
   double diameter = 1.0;                         ///< of each particle; of a mixture: the largest
   double restitution = 1.0;                      ///< alpha of collisions between particles
   Roughness roughness;                           ///< of the particles
@@ -105,7 +107,7 @@ struct Model {
   const Wall& wall(int side, std::uint32_t number) const {
     return species ? *species->walls[number][side] : *walls[side];
   }
-  /// Calls visit(law) for each wall and fixture, as each species meets it.
+  /// Calls visit(law) for each wall, each fixture and the free piston, as each species meets it.
   template <class Visit>
   void for_walls(const Visit& visit) const {
     const auto visit_all = [&](const auto& of_sides) {
@@ -117,6 +119,10 @@ struct Model {
     for (const Fixture<D>& fixture : fixtures) {
       visit(fixture.law);
       for (const Wall& law : fixture.of_species) visit(law);
+    }
+    if (free_piston) {
+      visit(free_piston->law);
+      for (const Wall& law : free_piston->of_species) visit(law);
     }
     if (!species) return;
     for (const auto& of_species : species->walls) visit_all(of_species);

@@ -16,7 +16,9 @@ template <int D>
 void CollisionWatch<D>::on_wall(const WallCollision<D>& collision) {
   if (collision.particle.particle != particle_) return;
   last_ = {simulation_.time(), std::nullopt, collision.side};
-  if (!collision.at_wall()) last_->fixture = simulation_.model().fixtures[collision.fixture].name;
+  if (collision.at_wall()) return;
+  last_->fixture =
+      collision.at_piston() ? "piston" : simulation_.model().fixtures[collision.fixture].name;
 }
 
 template <int D>

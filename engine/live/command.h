@@ -78,6 +78,8 @@ struct Nudge {
 struct AddPuff {
   Puff puff;
 };
+/// Changes the signs of all velocities and spins. Each counts, like a nudge.
+struct Reverse {};
 /// Moves the piston to a position on the x axis in a duration > 0, after its strokes that have
 /// begun. Each stroke counts, like a nudge.
 struct MovePiston {
@@ -143,8 +145,9 @@ using Command =
     std::variant<command::Play, command::PlayBackwards, command::Step, command::StepCollision,
                  command::Jump, command::StepBack, command::ExchangeFutures, command::MoveChange,
                  command::ReplaceChanges, command::Loop, command::SetSpeed, command::SetLaws,
-                 command::Nudge, command::AddPuff, command::MovePiston, command::Show,
-                 command::ShowProfile, command::Listen, command::Pick, command::CopyGas,
-                 command::RemoveGas, command::SelectGas, command::Open, command::CancelOpen>;
+                 command::Nudge, command::AddPuff, command::Reverse, command::MovePiston,
+                 command::Show, command::ShowProfile, command::Listen, command::Pick,
+                 command::CopyGas, command::RemoveGas, command::SelectGas, command::Open,
+                 command::CancelOpen>;
 
 }  // namespace clatter

@@ -128,6 +128,10 @@ void EngineWork::execute(const command::AddPuff& asked) {
   if (gases_) gases_->puff(asked.puff, delay());
 }
 
+void EngineWork::execute(const command::Reverse&) {
+  if (gases_) gases_->reverse(delay());
+}
+
 void EngineWork::execute(const command::MovePiston& asked) {
   if (gases_) gases_->move_piston(asked.position, asked.duration, delay());
 }

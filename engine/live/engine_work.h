@@ -122,6 +122,7 @@ class EngineWork {
   void execute(const command::SetLaws& asked);
   void execute(const command::Nudge& asked);
   void execute(const command::AddPuff& asked);
+  void execute(const command::Reverse& asked);
   void execute(const command::MovePiston& asked);
   void execute(const command::Show& asked);
   void execute(const command::ShowProfile& asked);

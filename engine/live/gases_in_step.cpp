@@ -110,6 +110,10 @@ void GasesInStep::puff(const Puff& puff, double delay) {
   lead([&] { selected().puff(puff, delay); });
 }
 
+void GasesInStep::reverse(double delay) {
+  lead([&] { selected().reverse(delay); });
+}
+
 void GasesInStep::move_piston(double position, double duration, double delay) {
   lead([&] { selected().move_piston(position, duration, delay); });
 }

@@ -48,6 +48,7 @@ class GasesInStep final : public WatchedRun {
   void change(const std::vector<Override>& laws, double delay) override;
   void nudge(const Nudge& nudge, double delay) override;
   void puff(const Puff& puff, double delay) override;
+  void reverse(double delay) override;
   void move_piston(double position, double duration, double delay) override;
   double replace_changes(std::vector<Change> changes, double from) override;
   double exchange_futures() override;

@@ -45,6 +45,7 @@ class RunOf : public WatchedRun {
   }
   void nudge(const Nudge& nudge, double delay) override;
   void puff(const Puff& puff, double delay) override;
+  void reverse(double delay) override;
   void move_piston(double position, double duration, double delay) override;
   double replace_changes(std::vector<Change> changes, double from) override;
   double head() const override { return std::max(head_, time()); }
@@ -297,6 +298,12 @@ template <int D>
 void RunOf<D>::puff(const Puff& puff, double delay) {
   delay = leave_start(delay);
   branch([&] { run_.puff(puff, delay); });
+}
+
+template <int D>
+void RunOf<D>::reverse(double delay) {
+  delay = leave_start(delay);
+  branch([&] { run_.reverse(delay); });
 }
 
 template <int D>

@@ -62,6 +62,8 @@ class WatchedRun {
   /// As ScheduledRun::puff, and in the past as change(). The puff is after time 0 if there is a
   /// delay.
   virtual void puff(const Puff& puff, double delay) = 0;
+  /// As ScheduledRun::reverse, and in the past as change(). It is after time 0 if there is a delay.
+  virtual void reverse(double delay) = 0;
   /// As ScheduledRun::move_piston, and in the past as change(). The stroke is after time 0 if there
   /// is a delay.
   virtual void move_piston(double position, double duration, double delay) = 0;

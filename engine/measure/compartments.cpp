@@ -1,5 +1,6 @@
 #include "engine/measure/compartments.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -7,7 +8,11 @@
 namespace clatter {
 
 template <int D>
-std::optional<AxisPlane> compartment_plane(const Model<D>& model) {
+std::optional<AxisPlane> compartment_plane(const Simulation<D>& simulation) {
+  const Model<D>& model = simulation.model();
+  if (const PistonFlight* piston = simulation.free_piston()) {
+    return AxisPlane{model.free_piston->axis, piston->at(simulation.base_time())};
+  }
   for (const Fixture<D>& fixture : model.fixtures) {
     if (fixture.plane && !model.periodic(fixture.plane->axis)) return fixture.plane;
   }
@@ -37,6 +42,21 @@ void CompartmentSeries::sample(const Simulation<D>& simulation, const AxisPlane&
   temperature_right.push_back(counts[1] > 0.0 ? squares[1] / (D * counts[1]) : kNone);
 }
 
+// The density of shares in bins. The number of bins is odd, so that equal shares are in the middle
+// of one.
+static std::vector<Estimate> share_distribution(const std::vector<double>& shares) {
+  constexpr int kBins = 21;
+  std::vector<Estimate> density;
+  for (int bin = 0; bin < kBins; ++bin) {
+    std::vector<double> inside;
+    for (const double share : shares) {
+      inside.push_back(std::min(static_cast<int>(share * kBins), kBins - 1) == bin ? kBins : 0.0);
+    }
+    density.push_back(mean_estimate(inside));
+  }
+  return density;
+}
+
 CompartmentMeans compartment_means(const CompartmentSeries& series, std::size_t first,
                                    double count) {
   std::vector<double> shares, imbalances;
@@ -60,13 +80,14 @@ CompartmentMeans compartment_means(const CompartmentSeries& series, std::size_t 
   return {number,
           share,
           mean_estimate(imbalances),
+          share_distribution(shares),
           temperature(series.temperature_left),
           temperature(series.temperature_right),
           series.share_left};
 }
 
-template std::optional<AxisPlane> compartment_plane(const Model<2>&);
-template std::optional<AxisPlane> compartment_plane(const Model<3>&);
+template std::optional<AxisPlane> compartment_plane(const Simulation<2>&);
+template std::optional<AxisPlane> compartment_plane(const Simulation<3>&);
 template void CompartmentSeries::sample(const Simulation<2>&, const AxisPlane&, std::size_t);
 template void CompartmentSeries::sample(const Simulation<3>&, const AxisPlane&, std::size_t);
 

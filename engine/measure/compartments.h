@@ -9,10 +9,10 @@
 
 namespace clatter {
 
-/// The first partition at right angles to an axis with walls, which divides the gas into two
-/// compartments; absent: none does.
+/// The plane that divides the gas into two compartments now: the free piston, or the first
+/// partition at right angles to an axis with walls; absent: none does.
 template <int D>
-std::optional<AxisPlane> compartment_plane(const Model<D>& model);
+std::optional<AxisPlane> compartment_plane(const Simulation<D>& simulation);
 
 /// The compartments at regular times. A particle belongs to the one that has its centre.
 struct CompartmentSeries {
@@ -39,6 +39,8 @@ struct CompartmentMeans {
   Estimate count_left;  ///< number of particles at the lower side
   Estimate share_left;  ///< this number over that of all
   Estimate imbalance;   ///< |N_left - N_right| / N
+  /// Probability density of share_left in bins of equal width from 0 to 1.
+  std::vector<Estimate> distribution;
   std::optional<Estimate> temperature_left;
   std::optional<Estimate> temperature_right;
   std::vector<double> share_left_series;  ///< at all samples, the burn-in included

@@ -18,7 +18,7 @@ void FixtureTotals<D>::clear() {
 
 template <int D>
 void FixtureTotals<D>::on_wall(const WallCollision<D>& collision) {
-  if (collision.at_wall()) return;
+  if (collision.at_wall() || collision.at_piston()) return;
   const ParticleChange<D>& particle = collision.particle;
   FixtureWindow<D>& sums = window_.fixtures[collision.fixture];
   const Vec<D> impulse = -particle.gain.momentum;

@@ -134,16 +134,19 @@ void Measurement<D>::plan_averages() {
   windows_.clear();
   species_windows_.clear();
   fixture_windows_.clear();
+  piston_windows_.clear();
   columns_.clear();
   parts_ = {};
   residuals_ = {};
   samples_ = 0;
   of_species_.reset();
   of_fixtures_.reset();
+  of_piston_.reset();
   of_cells_.reset();
   of_balance_.reset();
   species_.reset();
   fixtures_.reset();
+  piston_.reset();
   cells_.reset();
   balance_.reset();
   observables_.emplace(simulation_, measure_);
@@ -222,17 +225,19 @@ void Measurement<D>::fit_series() {
 template <int D>
 template <class Archive>
 void Measurement<D>::visit_averages(Archive& io) {
-  auto& [simulation, measure, end, balanced, fields, totals, species, fixtures, cells, balance,
-         series_start, averages_start, window, started, counts_at_start, windows, species_windows,
-         fixture_windows, columns, parts, residuals, samples, series, compartments, observables,
-         go_on, particles, own, of_totals, of_species, of_fixtures, of_cells, of_balance, timers] =
-      *this;
+  auto& [simulation, measure, end, balanced, fields, totals, species, fixtures, piston, cells,
+         balance, series_start, averages_start, window, started, counts_at_start, windows,
+         species_windows, fixture_windows, piston_windows, columns, parts, residuals, samples,
+         series, compartments, observables, go_on, particles, own, of_totals, of_species,
+         of_fixtures, of_piston, of_cells, of_balance, timers] = *this;
   io(averages_start, window, started, counts_at_start, windows, columns, parts, residuals, samples);
   if (simulation.model().species) io(species_windows);
   if (!simulation.model().fixtures.empty()) io(fixture_windows);
-  if (started && !species && !fixtures && !cells && !balance) open_sums();
+  if (simulation.model().free_piston) io(piston_windows);
+  if (started && !species && !fixtures && !piston && !cells && !balance) open_sums();
   if (species) io(*species);
   if (fixtures) io(*fixtures);
+  if (piston) io(*piston);
   if (cells) io(*cells);
   if (balance) io(*balance);
 }
@@ -272,7 +277,7 @@ void Measurement<D>::sample(double time) {
   if (!simulation_.spins().empty()) {
     series_.spin_temperature.push_back(per_component(simulation_.spin_energy(), kSpinSize<D>));
   }
-  if (const auto plane = compartment_plane(simulation_.model())) {
+  if (const auto plane = compartment_plane(simulation_)) {
     compartments_.sample(simulation_, *plane, series_.times.size() - 1);
   }
 }
@@ -294,6 +299,9 @@ void Measurement<D>::open_sums() {
   if (!simulation_.model().fixtures.empty()) {
     of_fixtures_.emplace(simulation_, fixtures_.emplace(simulation_));
   }
+  if (simulation_.model().free_piston) {
+    of_piston_.emplace(simulation_, piston_.emplace(simulation_));
+  }
   const IntVec<D> cells = cells_of<D>(measure_);
   if (balanced_) of_balance_.emplace(simulation_, balance_.emplace(simulation_, cells));
   if (measure_.fields.empty()) return;
@@ -310,6 +318,7 @@ void Measurement<D>::close_window() {
   windows_.push_back(totals_.close_window());
   if (species_) species_windows_.push_back(species_->close_window());
   if (fixtures_) fixture_windows_.push_back(fixtures_->close_window());
+  if (piston_) piston_windows_.push_back(piston_->close_window());
   observables_->close_window();
   if (cells_) {
     CellSums window = cells_->close_window();
@@ -468,11 +477,12 @@ Measured Measurement<D>::means() const {
   if (!model.fixtures.empty()) {
     measured.walls_in = estimate([](const auto& w) { return w.walls_in / w.duration; });
     measured.fixtures = fixture_means<D>(fixture_windows_, model);
-    const auto first = static_cast<std::size_t>(
-        std::ranges::lower_bound(series_.times, averages_start_) - series_.times.begin());
-    if (first < compartments_.share_left.size() && compartment_plane(model)) {
-      measured.compartments = compartment_means(compartments_, first, count);
-    }
+  }
+  if (model.free_piston) measured.piston = piston_means(piston_windows_, *model.free_piston);
+  const auto first = static_cast<std::size_t>(
+      std::ranges::lower_bound(series_.times, averages_start_) - series_.times.begin());
+  if (first < compartments_.share_left.size() && compartment_plane(simulation_)) {
+    measured.compartments = compartment_means(compartments_, first, count);
   }
   if (model.is_periodic() && model.fixtures.empty() && count >= 2.0) {
     // The total momentum is conserved, so D(N - 1) degrees of freedom carry the temperature.

@@ -11,6 +11,7 @@
 #include "engine/measure/compartments.h"
 #include "engine/measure/field_maps.h"
 #include "engine/measure/fixture_totals.h"
+#include "engine/measure/piston_totals.h"
 #include "engine/measure/profile.h"
 #include "engine/measure/residuals.h"
 #include "engine/measure/species_means.h"
@@ -53,7 +54,7 @@ struct Measured {
   std::optional<Estimate> spin_temperature;  ///< T_rot = I <omega^2>; absent without spins
   std::vector<Estimate> kurtosis_excess;     ///< [D] <v_k^4>/(3 <v_k^2>^2) - 1
   Estimate collision_rate;  ///< pair collisions per particle and time; each counts for both
-  std::optional<Estimate> walls_in;    ///< power of walls and fixtures
+  std::optional<Estimate> walls_in;    ///< power of walls, fixtures and the free piston
   std::optional<Estimate> bulk_in;     ///< power of the kicks of bulk driving
   std::optional<Estimate> nudges_in;   ///< power of nudges; absent: none so far
   std::optional<Estimate> gravity_in;  ///< power of gravity
@@ -68,7 +69,8 @@ struct Measured {
   std::vector<SpeciesMeans> species;        ///< [S] of a mixture; empty: the particles are alike
   std::vector<PairMeans> pairs;             ///< of the pairs of species of a mixture
   std::vector<FixtureMeans> fixtures;       ///< of the obstacles, then of the partitions
-  std::optional<CompartmentMeans> compartments;  ///< if a partition divides the gas
+  std::optional<PistonMeans> piston;        ///< of a free piston
+  std::optional<CompartmentMeans> compartments;  ///< if a partition or piston divides the gas
   std::optional<Profile> profile;           ///< if averaged fields are requested
   std::optional<Residuals> residuals;       ///< if residuals are requested
   std::optional<FieldMaps> maps;            ///< of all requested fields, over `duration`
@@ -157,6 +159,7 @@ class Measurement final : private Observer<D> {
   Totals<D> totals_;
   std::optional<SpeciesTotals<D>> species_;  // of a mixture
   std::optional<FixtureTotals<D>> fixtures_;  // if there are fixtures
+  std::optional<PistonTotals<D>> piston_;     // of a free piston
   std::optional<CellIntegrals<D>> cells_;
   std::optional<Balance<D>> balance_;
   double series_start_ = 0.0;  // simulation times
@@ -167,6 +170,7 @@ class Measurement final : private Observer<D> {
   std::vector<WindowTotals<D>> windows_;
   std::vector<SpeciesTotalsWindow<D>> species_windows_;  // [windows] of a mixture
   std::vector<FixtureTotalsWindow<D>> fixture_windows_;  // [windows] with fixtures
+  std::vector<PistonWindow> piston_windows_;             // [windows] of a free piston
   std::vector<CellSums> columns_;                        // [windows]
   PartSums<CellSums> parts_;                             // of the windows
   Residuals residuals_;
@@ -177,7 +181,7 @@ class Measurement final : private Observer<D> {
   bool go_on_ = true;      // whether the averages continue under the next laws
   std::size_t particles_;  // number of them under the present laws
   Observation<D> own_, of_totals_;
-  std::optional<Observation<D>> of_species_, of_fixtures_, of_cells_, of_balance_;
+  std::optional<Observation<D>> of_species_, of_fixtures_, of_piston_, of_cells_, of_balance_;
   std::optional<Timers<D>> timers_;
 };
 

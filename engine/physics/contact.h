@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 #include "engine/physics/fall_time.h"
@@ -41,6 +42,25 @@ double plane_contact_time(const Flight<D>& flight, int axis, double plane, doubl
                           const Vec<D>& gravity) {
   return flight.time + fall_time(inward * (flight.r[axis] - plane), inward * flight.v[axis],
                                  inward * gravity[axis]);
+}
+
+/// Time at which a particle touches a piston that slides along an axis, or kNever. `distance` is
+/// that of their middles at contact. The particle stays on the side where the later of the two
+/// flights begins. Partners that touch and approach within the rounding of their velocities do not
+/// collide at once.
+template <int D>
+double piston_contact_time(const Flight<D>& particle, const PistonFlight& piston, int axis,
+                           double distance, const Vec<D>& gravity) {
+  const double start = particle.time > piston.time ? particle.time : piston.time;
+  const double way = particle.at(start, gravity)[axis] - piston.at(start);
+  const double side = way < 0.0 ? -1.0 : 1.0;
+  const double of_particle = particle.velocity_at(start, gravity)[axis];
+  const double of_piston = piston.velocity_at(start);
+  const double gap = side * way - distance;
+  const double rounding = kApproachRounding * (std::fabs(of_particle) + std::fabs(of_piston));
+  double speed = side * (of_particle - of_piston);
+  if (!(gap > 0.0) && std::fabs(speed) <= rounding) speed = 0.0;
+  return start + fall_time(gap, speed, side * (gravity[axis] - piston.acceleration));
 }
 
 }  // namespace clatter

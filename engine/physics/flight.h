@@ -26,4 +26,20 @@ struct Flight {
   }
 };
 
+/// Free flight of a piston along its axis, between two of its hits.
+struct PistonFlight {
+  double place = 0.0;         ///< of its middle at `time`
+  double velocity = 0.0;      ///< at `time`
+  double acceleration = 0.0;  ///< constant
+  double time = 0.0;          ///< on the moving base
+
+  /// The middle at a later time.
+  double at(double later) const {
+    const double dt = later - time;
+    return place + (velocity + acceleration * (0.5 * dt)) * dt;
+  }
+  /// The velocity at a later time.
+  double velocity_at(double later) const { return velocity + acceleration * (later - time); }
+};
+
 }  // namespace clatter

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -10,6 +11,14 @@
 
 namespace clatter {
 
+/// Place and velocity of a free piston at one time, along its axis.
+struct PistonState {
+  double place = 0.0;  ///< of its middle
+  double velocity = 0.0;
+
+  bool operator==(const PistonState&) const = default;
+};
+
 /// Positions, velocities and spins of all particles at one time, in original order.
 template <int D>
 struct State {
@@ -17,6 +26,8 @@ struct State {
   std::vector<Vec<D>> velocities;   ///< [N]
   std::vector<Spin<D>> spins = {};  ///< [N] angular velocities; empty without spins
   std::vector<Grain> grains = {};   ///< [N] what the particles are; empty: all are alike
+  /// Of the free piston; absent: there is none, or it is where the laws place it at the start.
+  std::optional<PistonState> piston = {};
 
   bool operator==(const State&) const = default;
 };

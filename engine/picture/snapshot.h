@@ -64,8 +64,8 @@ struct Snapshot {
   Vectors velocities;                 ///< [D][N]
   std::vector<Grain> grains;          ///< [N] what the particles are; empty: all alike
   std::vector<Species> species;       ///< of the scene, for colours and legends; empty: all alike
-  std::vector<Obstacle> obstacles;    ///< of the scene
-  std::vector<Partition> partitions;  ///< of the scene
+  std::vector<Obstacle> obstacles;    ///< that are present, and a thick piston
+  std::vector<Partition> partitions;  ///< that are present, and a piston without thickness
   Vectors spins;               ///< [1][N], of spheres [3][N] angular velocities; empty: no spins
   std::vector<double> angles;  ///< [N] rotation angles of disks, -pi..pi; empty: not observed
   /// [N] rotations of spheres from their start, unit quaternions; empty: not observed

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -139,6 +141,12 @@ void ScheduledRun<D>::puff(const Puff& puff, double delay) {
   make({.time = simulation_->time(), .puff = fitting});
 }
 
+template <int D>
+void ScheduledRun<D>::reverse(double delay) {
+  halt_within(delay);
+  make({.time = simulation_->time(), .reverse = true});
+}
+
 // A stroke that begins later is only added to the changes to come.
 template <int D>
 void ScheduledRun<D>::move_piston(double position, double duration, double delay) {
@@ -195,6 +203,7 @@ void ScheduledRun<D>::advance(Schedule schedule) {
   if (change.nudge) simulation_->nudge(*change.nudge);
   if (change.piston) simulation_->move_piston(*change.piston, change.time, change.until);
   if (change.puff) enter(*change.puff);
+  if (change.reverse) simulation_->reverse();
   schedule_ = std::move(schedule);
 }
 
@@ -269,12 +278,36 @@ std::vector<Rotation<D>> ScheduledRun<D>::rotations() const {
   return shown_ ? shown_->rotations() : std::vector<Rotation<D>>();
 }
 
+// Adds the piston to the bodies of a snapshot: a box, or without thickness a partition.
+static void show_piston(const Piston& piston, double place, Snapshot& snapshot) {
+  if (piston.thickness == 0.0) {
+    Partition& body = snapshot.partitions.emplace_back();
+    body.axis = piston.axis;
+    body.position = place;
+    body.law = piston.law;
+    return;
+  }
+  Obstacle& body = snapshot.obstacles.emplace_back();
+  body.kind = ObstacleKind::Box;
+  body.centre = body.from = VecX::Zero(snapshot.box.size());
+  body.to = snapshot.box;
+  const int axis = static_cast<int>(piston.axis);
+  body.from[axis] = place - 0.5 * piston.thickness;
+  body.to[axis] = place + 0.5 * piston.thickness;
+  body.law = piston.law;
+}
+
 template <int D>
 Snapshot ScheduledRun<D>::snapshot() {
   Snapshot snapshot = snapshot_of(*simulation_);
   snapshot.species = laws().species;
-  snapshot.obstacles = laws().obstacles;
-  snapshot.partitions = laws().partitions;
+  std::ranges::copy_if(laws().obstacles, std::back_inserter(snapshot.obstacles),
+                       &Obstacle::present);
+  std::ranges::copy_if(laws().partitions, std::back_inserter(snapshot.partitions),
+                       &Partition::present);
+  if (const PistonFlight* flight = simulation_->free_piston()) {
+    show_piston(*laws().piston, flight->at(simulation_->base_time()), snapshot);
+  }
   if (shown_) shown_->publish(snapshot);
   return snapshot;
 }

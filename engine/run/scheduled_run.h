@@ -93,6 +93,9 @@ class ScheduledRun {
   /// this number to the scene's changes. Throws UserError if none finds room or the puff is
   /// impossible, and PhysicalStop if one is too fast; nothing then changes.
   void puff(const Puff& puff, double delay = 0.0);
+  /// Changes the signs of all velocities and spins, as change() changes laws, and adds this to the
+  /// scene's changes.
+  void reverse(double delay = 0.0);
   /// Moves the piston to a position in a duration, > 0, and adds the stroke to the scene's changes.
   /// The stroke begins at the end of those that are on their way, or within `delay`. Throws
   /// UserError if it is impossible; nothing then changes.

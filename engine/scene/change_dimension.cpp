@@ -26,7 +26,7 @@ VecX changed_box(const Scene& scene, int dimension) {
 }
 
 bool has_axis(const Override& setting, int dimension) {
-  for (const char* const table : {"gravity", "obstacle.", "partition."}) {
+  for (const char* const table : {"gravity", "obstacle.", "partition.", "piston."}) {
     if (setting.key.starts_with(table)) return false;
   }
   for (int side = 2 * dimension; side < 6; ++side) {
@@ -46,7 +46,7 @@ bool remove_settings(std::vector<Change>& changes, int dimension) {
     removed += change.piston.has_value();
     removed += change.puff.has_value();
   }
-  std::erase_if(changes, [](const Change& change) { return change.set.empty(); });
+  std::erase_if(changes, [](const Change& c) { return c.set.empty() && !c.reverse; });
   return removed > 0;
 }
 
@@ -133,6 +133,14 @@ ChangedDimension change_dimension(const Scene& scene, int dimension) {
   made.box = changed_box(scene, dimension);
   const bool flat = dimension == 2;
   remove_if(change_fixtures(made, scene.box), "obstacle or partition", [] {});
+  remove_if(flat && made.piston && made.piston->axis == Axis::Z, "piston",
+            [&] { made.piston.reset(); });
+  if (made.piston && made.piston->axis != Axis::Z) {
+    const int axis = static_cast<int>(made.piston->axis);
+    made.piston->position *= made.box[axis] / scene.box[axis];
+  }
+  made.particles.count_left.reset();
+  for (Species& species : made.species) species.count_left.reset();
 
   Start& start = made.particles.start;
   remove_if(start.layout == Layout::File, "particles.start.file",

@@ -65,6 +65,8 @@ inline constexpr auto kChangeKeys = key_table(
      {"piston", "a",
       "New x position of the right wall at rest. It moves there at constant velocity, from `time` "
       "to `until`."},
+     {"reverse", "",
+      "Whether all velocities and spins change their signs. An elastic gas then runs back."},
      {"set", "", "Keys and their new values. Only keys that can change in a run are allowed."},
      {"ramp", "",
       "Transition of numbers to their new values. Without a value the change is immediate."},
@@ -80,6 +82,7 @@ void visit_change(Visitor& io, Change& change, const std::vector<std::string>& s
   io.value(kChangeKeys.at("piston"), change.piston, above(0.0));
   io.value(kChangeKeys.at("until"), change.until, above(change.time),
            change.ramp || change.piston ? kRequired : kNotWithoutRamp);
+  io.value(kChangeKeys.at("reverse"), change.reverse);
   io.table("nudge", change.nudge, [](auto& io, Nudge& nudge) { visit_nudge(io, nudge); });
   io.table("puff", change.puff, [&](auto& io, Puff& puff) { visit_puff(io, puff, species_names); });
 }

@@ -204,6 +204,44 @@ void visit_partition(Visitor& io, Partition& partition, int dimension,
   });
 }
 
+inline constexpr auto kPistonKeys = key_table(
+    kRunCommands,
+    {{"axis", "", "Axis along which the piston slides, between two walls."},
+     {"position", "a", "Position of its middle at time 0."},
+     {"mass", "m", "Mass of the piston."},
+     {"thickness", "a", "Thickness along the axis."},
+     {"speed", "a/t", "Velocity along the axis at time 0."},
+     {"force", "m a/t^2",
+      "Constant force on the piston along the axis: a weight. Gravity acts on particles alone."},
+     {"pinned", "",
+      "Whether the piston is held at rest. A change during a run pins it or sets it free."},
+     {"restitution", "1", "Ratio of the normal relative velocities after and before a hit."}});
+
+/// The keys of [piston], if the table exists.
+template <class Visitor>
+void visit_piston(Visitor& io, Piston& piston, const std::vector<std::string>& species) {
+  io.choice(kPistonKeys.at("axis"), piston.axis, kAxes);
+  io.value(kPistonKeys.at("position"), piston.position, between(0.0, kMaxLength), kRequired);
+  io.value(kPistonKeys.at("mass"), piston.mass, between(kMinMass, kMaxMass), kRequired);
+  io.value(kPistonKeys.at("thickness"), piston.thickness, between(0.0, kMaxLength));
+  io.value(kPistonKeys.at("speed"), piston.speed, between(-kMaxSpeed, kMaxSpeed));
+  io.value(kPistonKeys.at("force"), piston.force, between(-kMaxAcceleration, kMaxAcceleration));
+  io.value(kPistonKeys.at("pinned"), piston.pinned);
+  SpeciesWall& all = piston.law.of_all;
+  io.value(kPistonKeys.at("restitution"), all.restitution, between(0.0, 1.0));
+  visit_roughness(io, all.roughness, kOptional);
+  piston.law.of_species.resize(species.size());
+  io.table("species", [&](auto& io) {
+    for (std::size_t k = 0; k < species.size(); ++k) {
+      io.table(species[k], [&](auto& io) {
+        SpeciesWall& one = piston.law.of_species[k];
+        io.value(kSpeciesWallKeys.at("restitution"), one.restitution, between(0.0, 1.0));
+        visit_other_roughness(io, one.roughness, kOptional);
+      });
+    }
+  });
+}
+
 inline constexpr auto kStartKeys = key_table(
     kRunCommands,
     {{"layout", "", "Positions at time 0: random, on a lattice, or from a file."},
@@ -238,7 +276,10 @@ inline constexpr auto kParticleKeys = key_table(
       "Ratio of the normal relative velocities after and before a collision of two particles. 1 is "
       "elastic."},
      {"inertia", "1",
-      "Moment of inertia, as q = 4I/(m a^2). A uniform disk has 0.5, a uniform sphere 0.4."}});
+      "Moment of inertia, as q = 4I/(m a^2). A uniform disk has 0.5, a uniform sphere 0.4."},
+     {"count_left", "1",
+      "Number of particles that start on the lower side of the piston, or of the first partition "
+      "between walls. Without a value they divide as the free lengths."}});
 
 /// The keys of [particles]. Count and packing fraction are resolved after the whole scene is read.
 template <class Visitor>
@@ -252,6 +293,8 @@ void visit_particles(Visitor& io, SceneInput& input) {
   visit_roughness(io, particles.roughness, kOptional);
   io.value(kParticleKeys.at("inertia"), particles.inertia, between(kMinInertia, 1.0),
            input.spin_key());
+  io.value(kParticleKeys.at("count_left"), particles.count_left, between(0, kMaxCount),
+           input.species_names.empty() ? kOptional : kNotBesideSpecies);
   io.table("start", [&](auto& io) { visit_start(io, particles.start, input.spin_key()); });
 }
 
@@ -279,6 +322,9 @@ inline constexpr auto kSpeciesKeys = key_table(
      {"inertia", "1",
       "Moment of inertia, as q = 4I/(m d^2). Without a value that of "
       "`[particles]`."},
+     {"count_left", "1",
+      "Number of its particles that start on the lower side of the piston, or of the first "
+      "partition between walls. Without a value they divide as the free lengths."},
      {"colour", "", "Colour in pictures, as \"#rrggbb\". Without a value one of the palette."}});
 
 /// The keys of one item of [[species]]. Its count is resolved after the whole scene is read.
@@ -299,6 +345,7 @@ void visit_species(Visitor& io, SpeciesInput& input, int dimension, Presence spi
     io.value(kPolydispersityKeys.at("width"), spread.width,
              Limits{.lowest = 0.0, .highest = 1.0, .above = true}, kRequired);
   });
+  io.value(kSpeciesKeys.at("count_left"), species.count_left, between(0, kMaxCount));
   io.value(kSpeciesKeys.at("colour"), species.colour, Limits{});
 }
 

@@ -64,6 +64,20 @@ struct Partition {
   bool operator==(const Partition&) const = default;
 };
 
+/// A plate across the box that slides freely between two walls, see FreePiston.
+struct Piston {
+  Axis axis = Axis::X;
+  double position = 0.0;   ///< of its middle at time 0
+  double mass = 1.0;       ///< > 0
+  double thickness = 0.0;  ///< along the axis, >= 0
+  double speed = 0.0;      ///< along the axis at time 0
+  double force = 0.0;      ///< constant, along the axis
+  bool pinned = false;     ///< whether it is held at rest
+  FixtureLaw law;          ///< static
+
+  bool operator==(const Piston&) const = default;
+};
+
 /// The name of an obstacle in results and messages, by its place in the list.
 std::string obstacle_name(const Obstacle& obstacle, std::size_t number);
 /// The same of a partition.

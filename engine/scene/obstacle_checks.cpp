@@ -245,4 +245,72 @@ void check_fixtures(const Scene& scene, const toml::table& root, const std::stri
   }
 }
 
+// Throws if numbers of particles beside a divider have no meaning or are too large.
+static void check_count_left(const Scene& scene, const toml::table& root, const std::string& file) {
+  const auto check = [&](const std::optional<int>& left, int count, const Place& place) {
+    if (!left) return;
+    if (!divider_of(scene)) {
+      throw UserError(place, "'count_left' has no meaning in a box that nothing divides",
+                      "remove it, or add [piston], or a [[partition]] between two walls");
+    }
+    if (scene.particles.start.layout == Layout::File) {
+      throw UserError(place, "'count_left' has no meaning beside layout = \"file\"",
+                      "remove it: the file has the positions");
+    }
+    if (*left <= count) return;
+    throw UserError(place,
+                    "of " + counted(static_cast<std::size_t>(count), "particle") + ", " +
+                        std::to_string(*left) + " cannot start on one side",
+                    "choose at most " + std::to_string(count));
+  };
+  check(scene.particles.count_left, scene.particles.count,
+        place_of(root, "particles.count_left", file));
+  for (std::size_t k = 0; k < scene.species.size(); ++k) {
+    check(scene.species[k].count_left, scene.species[k].count,
+          Item(root, "species", k, file).place("count_left"));
+  }
+}
+
+void check_piston(const Scene& scene, const toml::table& root, const std::string& file) {
+  check_count_left(scene, root, file);
+  if (!scene.piston) return;
+  const Piston& piston = *scene.piston;
+  const auto refuse = [&](const std::string& key, const std::string& problem,
+                          const std::string& advice) {
+    throw UserError(place_of(root, key, file), problem, advice);
+  };
+  const int axis = static_cast<int>(piston.axis);
+  const std::string name(kAxes[static_cast<std::size_t>(axis)].name);
+  if (axis >= scene.dimension()) {
+    refuse("piston.axis", "the box has no z axis", "choose x or y");
+  }
+  if (scene.periodic(axis)) {
+    refuse("piston.axis", "the box is periodic along " + name + ", where the piston slides",
+           std::string("add [walls.") + kSideNames[2 * axis] + "] and [walls." +
+               kSideNames[2 * axis + 1] + "], or choose an axis with walls");
+  }
+  if (scene.has_fixtures()) {
+    refuse(scene.obstacles.empty() ? "partition" : "obstacle",
+           "the piston would meet the fixtures of the box", "remove them, or the table [piston]");
+  }
+  const double low = scene.clear_corner()[axis] + 0.5 * piston.thickness;
+  const double high = scene.clear_corner()[axis] + scene.clear_box()[axis] - 0.5 * piston.thickness;
+  if (!(piston.position >= low && piston.position <= high)) {
+    const bool fits = low <= high;
+    refuse(fits ? "piston.position" : "piston.thickness",
+           fits ? "the piston is not between the walls along " + name
+                : "the piston is thicker than the free box along " + name,
+           fits ? "place it between " + number_text(low) + " and " + number_text(high)
+                : "make it thinner, or the box longer");
+  }
+  if (const toml::table* tables = root["piston"]["species"].as_table()) {
+    const std::vector<std::string> known = names_of(scene.species);
+    for (const auto& [species, table] : *tables) {
+      if (std::ranges::find(known, species.str()) != known.end()) continue;
+      refuse_species(place_of(root, "piston.species." + std::string(species.str()), file),
+                     species.str(), known);
+    }
+  }
+}
+
 }  // namespace clatter

@@ -1,5 +1,8 @@
 #include "engine/scene/scene.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "engine/physics/theory.h"
 
 namespace clatter {
@@ -98,6 +101,7 @@ bool Scene::spins() const {
     }
     for (const Obstacle& one : obstacles) any = any || one.law.wall(a).roughness.any();
     for (const Partition& one : partitions) any = any || one.law.wall(a).roughness.any();
+    any = any || (piston && piston->law.wall(a).roughness.any());
   }
   return any;
 }
@@ -167,6 +171,52 @@ static SpeciesLaws<D> species_laws(const Scene& scene) {
   return laws;
 }
 
+static FreePiston free_piston_of(const Scene& scene) {
+  const Piston& piston = *scene.piston;
+  FreePiston free{.axis = static_cast<int>(piston.axis),
+                  .mass = piston.mass,
+                  .thickness = piston.thickness,
+                  .force = piston.force,
+                  .pinned = piston.pinned,
+                  .position = piston.position,
+                  .speed = piston.speed,
+                  .law = piston.law.wall()};
+  for (std::size_t k = 0; k < scene.species.size(); ++k) {
+    free.of_species.push_back(piston.law.wall(k));
+  }
+  return free;
+}
+
+std::optional<Divider> divider_of(const Scene& scene) {
+  if (const auto& piston = scene.piston) {
+    return Divider{static_cast<int>(piston->axis), piston->position, piston->thickness};
+  }
+  for (const Partition& partition : scene.partitions) {
+    const int axis = static_cast<int>(partition.axis);
+    if (!scene.periodic(axis)) return Divider{axis, partition.position, 0.0};
+  }
+  return std::nullopt;
+}
+
+bool starts_divided(const Scene& scene) {
+  const bool given =
+      scene.particles.count_left || std::ranges::any_of(scene.species, [](const Species& species) {
+        return species.count_left.has_value();
+      });
+  return scene.piston || (given && divider_of(scene));
+}
+
+int count_left(const Scene& scene, std::size_t species) {
+  const Divider divider = *divider_of(scene);
+  const bool mixed = !scene.species.empty();
+  const int count = mixed ? scene.species[species].count : scene.particles.count;
+  const auto& given = mixed ? scene.species[species].count_left : scene.particles.count_left;
+  if (given) return std::min(*given, count);
+  const double low = scene.clear_corner()[divider.axis], size = scene.clear_box()[divider.axis];
+  const double free = divider.position - 0.5 * divider.thickness - low;
+  return static_cast<int>(std::lround(count * free / (size - divider.thickness)));
+}
+
 template <int D>
 Model<D> model_of(const Scene& scene, std::uint64_t seed) {
   Model<D> model;
@@ -178,6 +228,7 @@ Model<D> model_of(const Scene& scene, std::uint64_t seed) {
   model.inertia = scene.particles.inertia;
   if (!scene.species.empty()) model.species = species_laws<D>(scene);
   if (scene.has_fixtures()) model.fixtures = fixtures_of<D>(scene);
+  if (scene.piston) model.free_piston = free_piston_of(scene);
   model.spins = scene.spins();
   model.gravity = scene.gravity ? Vec<D>(*scene.gravity) : Vec<D>(Vec<D>::Zero());
   model.bulk_drive = scene.bulk_drive;

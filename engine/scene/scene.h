@@ -41,6 +41,9 @@ struct Particles {
   double restitution = 1.0;  ///< alpha, 0..1
   Roughness roughness = {};
   double inertia = 0.5;  ///< q = 4I/(m a^2), 0..1: 1/2 for a uniform disk, 2/5 for a uniform sphere
+  /// Number of them that start below the divider of the scene, without species; absent: see
+  /// count_left().
+  std::optional<int> count_left = {};
   Start start;
 };
 
@@ -108,9 +111,10 @@ struct Change {
   double until = 0.0;               ///< of a ramp or the piston: the time at which it ends, > time
   std::optional<Nudge> nudge = {};  ///< of velocities, after the change of laws; absent: none
   std::optional<Puff> puff = {};    ///< particles that enter the gas; absent: none
+  bool reverse = false;             ///< whether all velocities and spins change their signs
 
   /// Whether it acts on the particles or the piston, so that it happens once.
-  bool acts() const { return nudge || piston || puff; }
+  bool acts() const { return nudge || piston || puff || reverse; }
 
   bool operator==(const Change&) const = default;
 };
@@ -133,6 +137,7 @@ struct Scene {
   std::array<std::vector<SpeciesWall>, 6> species_walls;
   std::vector<Obstacle> obstacles;      ///< bodies at rest
   std::vector<Partition> partitions;    ///< thin walls across the box
+  std::optional<Piston> piston;         ///< that slides freely; absent: none
   std::optional<VecX> gravity;          ///< acceleration; absent: none
   std::optional<BulkDrive> bulk_drive;  ///< absent: none
   std::optional<double> contact_time;   ///< t_c > 0 of the TC model (theory 5.3); absent: off
@@ -175,6 +180,22 @@ struct Scene {
 /// The obstacles, then the partitions of a valid scene, for a model.
 template <int D>
 std::vector<Fixture<D>> fixtures_of(const Scene& scene);
+
+/// A body that divides the box along an axis with walls.
+struct Divider {
+  int axis = 0;
+  double position = 0.0;   ///< of its middle
+  double thickness = 0.0;  ///< along the axis
+};
+/// The piston, or the first partition at right angles to an axis with walls; absent: there is none.
+std::optional<Divider> divider_of(const Scene& scene);
+
+/// Whether a scene says how many particles start on each side of its divider.
+bool starts_divided(const Scene& scene);
+
+/// Number of particles of a species that start below the divider; without species that of all
+/// particles. Without a value in the scene they divide as the free lengths.
+int count_left(const Scene& scene, std::size_t species);
 
 /// Share of the box that no obstacle covers, by points on a lattice: accurate to some 1e-3.
 double free_share(const Scene& scene);

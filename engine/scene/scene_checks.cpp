@@ -410,8 +410,16 @@ void check_change_tables(const Scene& scene, const toml::table& root, const std:
     const Change& change = scene.changes[number];
     const auto place = [&](const std::string& key) { return place_in(number, key); };
     if (change.set.empty() && !change.acts()) {
-      throw UserError(place(""), "a change needs 'set', 'nudge', 'puff' or 'piston'",
-                      "give new values of keys, a nudge, a puff, or a position of the piston");
+      throw UserError(place(""), "a change needs 'set', 'nudge', 'puff', 'piston' or 'reverse'",
+                      "give new values of keys, a nudge, a puff, a position of the piston, or "
+                      "reverse = true");
+    }
+    if (change.reverse) {
+      if (!change.set.empty() || change.ramp || change.nudge || change.puff || change.piston) {
+        throw UserError(place("reverse"), "'reverse' has no other key beside time",
+                        "give it a [[change]] of its own");
+      }
+      continue;
     }
     if (change.puff) {
       if (!change.set.empty() || change.ramp || change.nudge) {

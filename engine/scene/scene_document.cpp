@@ -316,7 +316,8 @@ static std::string advice_on(std::string_view path, std::size_t prefix,
     return "did you mean '" + std::string(near) + "'?";
   }
   for (const std::string& one : known) {
-    if (one.starts_with("pair.") || one.starts_with("species.")) continue;
+    const auto is_in = [&](const char* table) { return one.starts_with(table); };
+    if (is_in("pair.") || is_in("species.") || is_in("piston.")) continue;
     if (one.ends_with('.' + std::string(key))) return "did you mean '" + one + "'?";
   }
   return "the keys here are " + all;

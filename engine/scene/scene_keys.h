@@ -82,6 +82,8 @@ void visit_scene(Visitor& io, SceneInput& input) {
   io.list("partition", scene.partitions, [&](auto& io, Partition& partition) {
     visit_partition(io, partition, dimension, input.species_names);
   });
+  io.table("piston", scene.piston,
+           [&](auto& io, Piston& piston) { visit_piston(io, piston, input.species_names); });
   io.table("gravity", scene.gravity, [&](auto& io, VecX& acceleration) {
     if (acceleration.size() == 0) acceleration = VecX::Zero(scene.dimension());
     io.value(kGravityKeys.at("acceleration"), acceleration,

@@ -25,6 +25,13 @@ bool may_change_live(std::string_view key) {
   if (key.starts_with("obstacle.") || key.starts_with("partition.")) {
     return !key.ends_with(".name") && !key.ends_with(".kind") && !key.ends_with(".axis");
   }
+  if (key.starts_with("piston.")) {
+    constexpr std::array<std::string_view, 5> kOfPiston = {"piston.restitution", "piston.friction",
+                                                           "piston.tangential_restitution",
+                                                           "piston.force", "piston.pinned"};
+    return key.starts_with("piston.species.") ||
+           std::ranges::find(kOfPiston, key) != kOfPiston.end();
+  }
   return key.starts_with("walls.") || (key.starts_with("pair.") && key != "pair.species");
 }
 
@@ -38,8 +45,8 @@ static void require_live(const std::vector<Override>& settings) {
     }
     throw UserError(
         {}, "'" + setting.key + "' cannot change while the gas moves",
-        "change laws only: restitution, friction, walls, obstacles, partitions, gravity, "
-        "bulk_drive, collapse");
+        "change laws only: restitution, friction, walls, obstacles, partitions, force and "
+        "pinned of the piston, gravity, bulk_drive, collapse");
   }
 }
 
@@ -100,6 +107,9 @@ static std::optional<Wall> partner_of(const Scene& laws, const std::string& owne
     }
     return std::nullopt;
   };
+  if (laws.piston) {
+    if (const auto wall = of_fixture("piston", laws.piston->law)) return wall;
+  }
   for (std::size_t k = 0; k < laws.obstacles.size(); ++k) {
     const std::string path = "obstacle." + obstacle_name(laws.obstacles[k], k);
     if (const auto wall = of_fixture(path, laws.obstacles[k].law)) return wall;

@@ -35,6 +35,7 @@ struct Species {
   std::optional<double> mass;     ///< m_s > 0 of a particle of diameter d_s; absent: by the density
   double density = 1.0;           ///< m_s / d_s^D > 0, without a mass
   std::optional<double> inertia;  ///< q_s = 4I/(m d^2), 0..1; absent: that of [particles]
+  std::optional<int> count_left;  ///< of them start below the divider, see count_left()
   std::optional<Polydispersity> polydispersity;  ///< absent: all diameters are d_s
   std::optional<Rgb> colour;                     ///< in pictures; absent: one of the palette
 

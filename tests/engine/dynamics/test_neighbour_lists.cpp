@@ -9,8 +9,10 @@
 #include "engine/initial/start_state.h"
 #include "engine/physics/random.h"
 #include "engine/run/scheduled_run.h"
+#include "tests/engine/support/gas.h"
 
 using namespace clatter;
+using testing::kAlike;
 
 namespace {
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "engine/physics/pair_contact.h"
 #include "engine/physics/piece.h"
 #include "engine/physics/random.h"
 #include "tests/support/dimensions.h"

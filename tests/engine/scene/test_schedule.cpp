@@ -151,7 +151,7 @@ TEST_CASE("Schedule: impossible changes are refused with their place") {
   const std::string head = "[[change]]\ntime = 1\n";
   const std::vector<std::pair<std::string, std::vector<const char*>>> wrong = {
       {"[[change]]\nset = {}\n", {"s.toml:9:1", "'change.time' is missing"}},
-      {head, {"s.toml:9:1", "a change needs 'set', 'nudge', 'puff' or 'piston'"}},
+      {head, {"s.toml:9:1", "a change needs 'set', 'nudge', 'puff', 'piston' or 'reverse'"}},
       {head + "set = 3\n", {"s.toml:11:1", "table of keys"}},
       {head + "set = { 'particles.count' = 20 }\n",
        {"s.toml:9:1", "particles.count", "cannot change"}},

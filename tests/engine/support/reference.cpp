@@ -19,6 +19,9 @@ Reference<D>::Reference(const Model<D>& model, const State<D>& state, const Base
       spins_(state.spins),
       last_collisions_(state.positions.size(), -kNever),
       moves_(moves) {
+  if (const auto& piston = model.free_piston) {
+    piston_ = {piston->position, piston->speed, piston->acceleration(), 0.0};
+  }
   spins_.resize(model.spins ? state.positions.size() : 0, Spin<D>::Zero());
   for (std::size_t i = 0; i < state.positions.size(); ++i) {
     flights_.push_back({state.positions[i], state.velocities[i], 0.0, 0});
@@ -43,6 +46,7 @@ bool Reference<D>::step() {
   const double first_look = model_.box.minCoeff() / fastest;
   for (double look = first_look; look < 1e9 * first_look; look *= 4.0) {
     const Next next = first_before(now_ + look);
+    if (model_.free_piston && reflect_piston(std::min(next.event.time, now_ + look))) return true;
     const double kick_time = next_kick();
     if (std::min(next.event.time, kick_time) > now_ + look) continue;
     if (kick_time < next.event.time) {
@@ -54,6 +58,8 @@ bool Reference<D>::step() {
         collide(next);
       } else if (next.event.partner < kWall) {
         hit_fixture(next);
+      } else if (next.event.partner == kPiston) {
+        hit_piston(next.event.particle);
       } else {
         hit_wall(next.event);
       }
@@ -72,6 +78,7 @@ typename Reference<D>::Next Reference<D>::first_before(double horizon) const {
     for (std::uint32_t j = i + 1; j < count; ++j) weigh_pair(i, j, horizon, first);
     weigh_walls(i, first);
     weigh_fixtures(i, horizon, first);
+    weigh_piston(i, first);
   }
   return first;
 }
@@ -146,6 +153,57 @@ void Reference<D>::weigh_fixtures(std::uint32_t i, double horizon, Next& first) 
       }
     }
   }
+}
+
+template <int D>
+void Reference<D>::weigh_piston(std::uint32_t i, Next& first) const {
+  if (!model_.free_piston) return;
+  const double distance = 0.5 * model_.free_piston->thickness + grain(i).radius;
+  const Event event{piston_contact_time<D>(flights_[i], piston_, model_.free_piston->axis, distance,
+                                           model_.gravity),
+                    i, kPiston};
+  if (event.time < kNever && before(event, first.event)) first = {event, IntVec<D>::Zero()};
+}
+
+// Reflects the piston at a wall before a time. Returns whether it met one.
+template <int D>
+bool Reference<D>::reflect_piston(double horizon) {
+  const FreePiston& law = *model_.free_piston;
+  const Vec<D> along = Vec<D>::Unit(law.axis);
+  const double half = 0.5 * law.thickness;
+  int met = -1;
+  for (const int side : {2 * law.axis, 2 * law.axis + 1}) {
+    const double time = boundary_.contact_time(
+        side, {piston_.place * along, piston_.velocity * along, piston_.time, 0}, half,
+        piston_.acceleration * along, now_);
+    if (time >= horizon) continue;
+    horizon = time;
+    met = side;
+  }
+  if (met < 0) return false;
+  now_ = std::max(now_, horizon);
+  const double wall = Boundary<D>::inward(met) * boundary_.wall(met, now_).velocity;
+  piston_ = {boundary_.touching_place(met, half, now_), 2.0 * wall - piston_.velocity_at(now_),
+             law.acceleration(), now_};
+  return true;
+}
+
+template <int D>
+void Reference<D>::hit_piston(std::uint32_t i) {
+  const FreePiston& law = *model_.free_piston;
+  Vec<D> r = flights_[i].at(now_, model_.gravity);
+  const double place = piston_.at(now_), velocity = piston_.velocity_at(now_);
+  const double side = r[law.axis] < place ? -1.0 : 1.0;
+  r[law.axis] = place + side * (0.5 * law.thickness + grain(i).radius);
+  const PistonOutcome<D> outcome = piston_outcome<D>(
+      model_, side, velocity,
+      {flights_[i].velocity_at(now_, model_.gravity), spin(i), i, flights_[i].number, grain(i)},
+      within_contact_time(i));
+  renew(i, r, outcome.departure.velocity, outcome.departure.spin);
+  last_collisions_[i] = now_;
+  ++particle_wall_;
+  if (law.pinned) return;
+  piston_ = {place, velocity - outcome.momentum / law.mass, law.acceleration(), now_};
 }
 
 template <int D>
@@ -272,6 +330,7 @@ template <int D>
 void Reference<D>::move_base() {
   for (Flight<D>& flight : flights_) flight.time -= now_;
   for (double& time : last_collisions_) time -= now_;
+  piston_.time -= now_;
   clock_.advance(now_);
   boundary_.move_base(clock_);
   now_ = 0.0;
@@ -285,6 +344,7 @@ State<D> Reference<D>::state() const {
     state.velocities.push_back(flight.velocity_at(now_, model_.gravity));
   }
   state.spins = spins_;
+  if (model_.free_piston) state.piston = {piston_.at(now_), piston_.velocity_at(now_)};
   return state;
 }
 

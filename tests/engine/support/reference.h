@@ -62,6 +62,7 @@ class Reference {
   Next first_before(double horizon) const;
   void weigh_pair(std::uint32_t i, std::uint32_t j, double horizon, Next& first) const;
   void weigh_walls(std::uint32_t i, Next& first) const;
+  void weigh_piston(std::uint32_t i, Next& first) const;
   void weigh_fixtures(std::uint32_t i, double horizon, Next& first) const;
   bool step();
   double next_kick() const;
@@ -69,6 +70,8 @@ class Reference {
   void collide(const Next& next);
   void hit_wall(const Event& event);
   void hit_fixture(const Next& next);
+  void hit_piston(std::uint32_t i);
+  bool reflect_piston(double horizon);
   bool within_contact_time(std::uint32_t i) const;
   Spin<D> spin(std::uint32_t i) const;
   Grain grain(std::uint32_t i) const { return grains_.empty() ? model_.grain() : grains_[i]; }
@@ -83,6 +86,7 @@ class Reference {
   std::vector<Grain> grains_;
   std::vector<Spin<D>> spins_;
   std::vector<double> last_collisions_;
+  PistonFlight piston_;  // of a free piston
   double now_ = 0.0;
   std::uint64_t particle_particle_ = 0, particle_wall_ = 0, kicks_ = 0;
   const BaseMoves<D>& moves_;
