@@ -162,7 +162,9 @@ TEST_CASE("Import: VTK PolyData that is no gas is refused with the line") {
   bad(with_arrays(ascii_array("v", 2, "0 0")), {"\"v\" has 2 components instead of 3"});
   bad(with_arrays(ascii_array("v", 3, "0 0")), {"\"v\" has 2 numbers instead of 3"});
   bad(with_arrays(ascii_array("v", 3, "0 0 x")), {"the array \"v\" has \"x\"; give numbers"});
-  bad(with_arrays(ascii_array("v", 3, "0 nan 0")), {"particle 0: the velocity is not finite"});
+  for (const std::string velocity : {"0 nan 0", "0 0 nan", "0 0 inf"}) {
+    bad(with_arrays(ascii_array("v", 3, velocity)), {"particle 0: the velocity is not finite"});
+  }
   bad(with_arrays(v + ascii_array("vel", 3, "0 0 0")), {"\"v\" and \"vel\" have one meaning"});
   bad(with_arrays(v + ascii_array("type", 1, "1.5")), {"a species is 1.5"});
   bad(with_arrays(v + ascii_array("radius", 1, "1") + ascii_array("diameter", 1, "1")),
