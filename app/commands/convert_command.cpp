@@ -13,9 +13,9 @@ void add_convert_command(CLI::App& program, int& exit_code) {
   command
       ->add_option(
           "in", options->in,
-          "A trajectory (.xyz, .lammpstrj, .csv, .gsd, .h5md), a start state (.csv), a data "
-          "file of LAMMPS (.data, .lmp, data.NAME) or a checkpoint. Text may be compressed "
-          "by gzip (.gz).")
+          "A trajectory (.xyz, .lammpstrj, .csv, .gsd, .h5md, .vtp, .vtp.series, .pvd), a start "
+          "state (.csv), a data file of LAMMPS (.data, .lmp, data.NAME) or a checkpoint. Text may "
+          "be compressed by gzip (.gz).")
       ->required()
       ->check(named_file())
       ->type_name("IN");
@@ -32,8 +32,10 @@ void add_convert_command(CLI::App& program, int& exit_code) {
                    "Number of the frame of a trajectory, from 0. Default: the last.")
       ->check(whole_number_between(0, 1'000'000'000));
   command
-      ->add_option("--scene", options->scene,
-                   "Scene with the box and the species of the particles, because a CSV has no box.")
+      ->add_option(
+          "--scene", options->scene,
+          "Scene with the box and the species of the particles of a CSV, or of a .vtp without a "
+          "box.")
       ->check(named_file())
       ->type_name("SCENE");
   command

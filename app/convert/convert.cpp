@@ -92,7 +92,10 @@ void note_disks(const ParticleFrame& frame, const ConvertOptions& options) {
 ParticleFrame frame_of_file(const ConvertOptions& options) {
   std::error_code ignored;
   if (!std::filesystem::exists(options.in, ignored)) {
-    throw UserError({options.in}, "there is no such file", "check the name");
+    const std::string list = options.in + ".series";
+    throw UserError(
+        {options.in}, "there is no such file",
+        std::filesystem::exists(list, ignored) ? "give the list " + list : "check the name");
   }
   if (std::filesystem::is_directory(options.in, ignored)) {
     throw UserError({options.in}, "this is a folder", "give a file in it");
@@ -136,7 +139,7 @@ void set_species(ParticleFrame& frame, const Scene& scene, const ConvertOptions&
   frame.grains = std::move(grains);
 }
 
-// Gives the particles of a CSV the box and the species of the scene.
+// Gives the particles of a file without a box that of the scene, and its species.
 void add_box(ParticleFrame& frame, const ConvertOptions& options) {
   if (options.scene.empty()) return;
   if (frame.box) {
@@ -277,7 +280,7 @@ int convert(const ConvertOptions& options) {
       return;
     }
     if (!frame.box) {
-      throw UserError({options.in}, "a CSV has no box", "give its scene with --scene");
+      throw UserError({options.in}, "the file has no box", "give its scene with --scene");
     }
     write_frame<dimension>(options.out, format, frame);
   });

@@ -15,7 +15,7 @@ struct ConvertOptions {
   FrameChoice choice;  ///< of the particles of a file
   std::optional<double> temperature;  ///< of velocities that are drawn; absent: those of the file
   std::uint64_t seed = 1;             ///< of these velocities
-  std::string scene;                  ///< scene whose box the particles of a CSV have; empty: none
+  std::string scene;  ///< whose box the particles of a file without one have; empty: none
 };
 
 /// Writes a frame or the state of a checkpoint in another format. Returns the exit code. Throws

@@ -33,6 +33,12 @@ bool is_data_file(const std::filesystem::path& path) {
          (name.filename().string().starts_with("data.") && !find_trajectory_format(name));
 }
 
+// Whether a name is that of a list of files of VTK: FILE.vtp.series or FILE.pvd.
+bool is_vtp_series(const std::filesystem::path& path) {
+  const std::string extension = path.extension();
+  return extension == ".pvd" || (extension == ".series" && path.stem().extension() == ".vtp");
+}
+
 bool is_binary(TrajectoryFormat format) {
   return format == TrajectoryFormat::Gsd || format == TrajectoryFormat::H5md ||
          format == TrajectoryFormat::Vtp;
@@ -111,7 +117,7 @@ void divide_lengths(ParticleFrame& frame, double scale) {
 
 bool is_plain_text(const std::filesystem::path& path) {
   require_regular(path, "IN");
-  if (is_gzip(path)) return false;
+  if (is_gzip(path) || is_vtp_series(path)) return false;
   return is_data_file(path) || !is_binary(trajectory_format(uncompressed_name(path), "IN"));
 }
 
@@ -124,6 +130,7 @@ ParticleFrame read_frame(const std::filesystem::path& path, const FrameChoice& c
       throw UserError({"--group", 0, 0}, path.string() + " is no H5MD file", "omit --group");
     }
     if (is_data_file(path)) return read_data_file(path, choice);
+    if (is_vtp_series(path)) return read_vtp_series(path, choice);
     const TrajectoryFormat format = trajectory_format(name, flag);
     if (is_binary(format) && path.extension() == ".gz") {
       throw UserError({flag, 0, 0}, path.string() + " is compressed",
@@ -141,8 +148,7 @@ ParticleFrame read_frame(const std::filesystem::path& path, const FrameChoice& c
       case TrajectoryFormat::H5md:
         return read_h5md_frame(path, choice);
       case TrajectoryFormat::Vtp:
-        throw UserError({flag, 0, 0}, path.string() + " is a file of VTK, which is only written",
-                        "give a trajectory in another format");
+        return read_vtp_frame(path, choice);
     }
     return ParticleFrame();
   };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/import/binary_frames.h"
+#include "app/import/frame_order.h"
 #include "app/results/h5md_reader.h"
 #include "app/results/isolated_hdf5.h"
 #include "engine/checkpoint/archive.h"
@@ -16,39 +17,6 @@
 namespace clatter {
 
 namespace {
-
-// The elements of a list at `places`; an empty list stays empty.
-template <class T>
-void choose(std::vector<T>& list, const std::vector<std::size_t>& places) {
-  if (list.empty()) return;
-  std::vector<T> chosen;
-  for (const std::size_t place : places) chosen.push_back(list[place]);
-  list = chosen;
-}
-
-// Sorts the particles by their identifiers, and removes places without a particle.
-void sort_by_id(ParticleFrame& frame, const std::vector<std::optional<double>>& ids,
-                const std::filesystem::path& path) {
-  std::vector<std::size_t> places;
-  for (std::size_t k = 0; k < ids.size(); ++k) {
-    if (ids[k]) places.push_back(k);
-  }
-  const auto id = [&](std::size_t place) { return *ids[place]; };
-  std::ranges::stable_sort(places, {}, id);
-  const auto twice = std::ranges::adjacent_find(places, {}, id);
-  if (twice != places.end()) {
-    throw UserError({path.string()}, "the id " + number_text(id(*twice)) + " occurs twice",
-                    "give each particle its own id");
-  }
-  for (const std::size_t place : places) frame.ids.push_back(id(place));
-  choose(frame.positions, places);
-  choose(frame.velocities, places);
-  choose(frame.spins, places);
-  choose(frame.images, places);
-  choose(frame.masses, places);
-  choose(frame.diameters, places);
-  choose(frame.types, places);
-}
 
 // Reads the types of the particles, and their names if they are an enumeration.
 void read_types(ParticleFrame& frame, const H5mdReader& reader, std::size_t place,

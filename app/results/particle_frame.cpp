@@ -13,10 +13,13 @@ namespace {
 
 using Vector = ParticleFrame::Vector;
 
+// Of the numbers that are finite.
 double largest_component(const std::vector<Vector>& vectors) {
   double largest = 0.0;
   for (const Vector& vector : vectors) {
-    for (const double number : vector) largest = std::max(largest, std::fabs(number));
+    for (const double number : vector) {
+      if (std::isfinite(number)) largest = std::max(largest, std::fabs(number));
+    }
   }
   return largest;
 }
@@ -44,10 +47,11 @@ std::optional<std::size_t> first_out_of_plane(const ParticleFrame& frame, double
     const double plane = frame.positions.front()[2], z = frame.positions[i][2];
     const double near = frame.rounding * std::max(scale, std::fabs(plane));
     const auto spins_out = [&](int axis) {
-      return !frame.spins.empty() && std::fabs(frame.spins[i][axis]) > slowest_spin;
+      return !frame.spins.empty() && !(std::fabs(frame.spins[i][axis]) <= slowest_spin);
     };
-    const bool moves_out = !frame.velocities.empty() && std::fabs(frame.velocities[i][2]) > slowest;
-    if (std::fabs(z - plane) > near || moves_out || spins_out(0) || spins_out(1)) return i;
+    const bool moves_out =
+        !frame.velocities.empty() && !(std::fabs(frame.velocities[i][2]) <= slowest);
+    if (!(std::fabs(z - plane) <= near) || moves_out || spins_out(0) || spins_out(1)) return i;
   }
   return std::nullopt;
 }

@@ -80,7 +80,7 @@ std::vector<ParticleFrame::Vector> vectors_of(const std::vector<double>& numbers
                                               std::size_t components = 3);
 
 /// The first particle that is not in the plane z of particle 0, or leaves it, by more than rounding
-/// of lengths of at least `scale`; absent: none.
+/// of lengths of at least `scale`, or by no finite number; absent: none.
 std::optional<std::size_t> first_out_of_plane(const ParticleFrame& frame, double scale);
 
 /// The dimension of a frame in a format for three dimensions: the chosen one, or 2 if all particles

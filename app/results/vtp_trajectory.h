@@ -8,8 +8,8 @@
 namespace clatter {
 
 /// A frame as a file of VTK PolyData: a point with a vertex for each particle, and the arrays
-/// diameter, velocity, image, mass, angular_velocity where particles spin, and species in a
-/// mixture. Its numbers are exact.
+/// diameter, velocity, image, mass, spin where particles spin, and species in a mixture. Its
+/// numbers are exact.
 template <int D>
 std::string vtp_text(const TrajectoryFrame<D>& frame);
 

@@ -16,11 +16,16 @@ using namespace testing;
 
 namespace {
 
-const std::vector<std::string> kBoxed = {"xyz", "lammpstrj", "gsd", "h5md"};
+const std::vector<std::string> kBoxed = {"xyz", "lammpstrj", "gsd", "h5md", "vtp"};
 constexpr const char* kFrame =
     "2\nLattice=\"8 0 0 0 6 0 0 0 1\" pbc=\"T F F\" Time=3 "
     "Properties=species:S:1:pos:R:3:velo:R:3:radius:R:1\n"
     "X 1 2 0 0.5 0.25 0 0.5\nX 3 4 0 -0.5 0 0 0.5\n";
+
+// The trajectory t of a run: the file, or the list of files of VTK.
+std::string run_in(const std::string& format) {
+  return "t." + format + (format == "vtp" ? ".series" : "");
+}
 
 std::string hash_after(const Shell& shell, const std::string& state) {
   const Outcome run = shell.run(
@@ -50,13 +55,13 @@ TEST_CASE("Convert: each format gives back the state of the run, to the bit") {
     for (const std::string& format : formats) {
       CAPTURE(format);
       REQUIRE(shell.run(kRun + "--until 2 --every 0.25 --trajectory t." + format).code == 0);
-      const Outcome middle = shell.run("clatter convert t." + format + " --frame 4 a.csv");
+      const Outcome middle = shell.run("clatter convert " + run_in(format) + " --frame 4 a.csv");
       CAPTURE(middle.err);
       REQUIRE(middle.code == 0);
       CHECK(shell.read("a.csv") == shell.read("want.csv"));
       CHECK(hash_after(shell, "a.csv") == hash_after(shell, "want.csv"));
-      REQUIRE(shell.run("clatter convert t." + format + " last.csv").code == 0);
-      REQUIRE(shell.run("clatter convert t." + format + " --frame 8 eight.csv").code == 0);
+      REQUIRE(shell.run("clatter convert " + run_in(format) + " last.csv").code == 0);
+      REQUIRE(shell.run("clatter convert " + run_in(format) + " --frame 8 eight.csv").code == 0);
       CHECK(shell.run("cmp last.csv eight.csv").code == 0);
       CHECK(shell.run("cmp last.csv want.csv").code != 0);
     }
@@ -76,7 +81,7 @@ TEST_CASE("Convert: a frame in one format is the frame in each other format") {
       for (const std::string& to : kBoxed) {
         CAPTURE(from);
         CAPTURE(to);
-        REQUIRE(shell.run("clatter convert t." + from + " out." + to).code == 0);
+        REQUIRE(shell.run("clatter convert " + run_in(from) + " out." + to).code == 0);
         // Back as extended XYZ, which has all quantities. A dump has no time.
         REQUIRE(shell.run("clatter convert out." + to + " back.xyz").code == 0);
         CHECK(shell
@@ -102,7 +107,7 @@ TEST_CASE("Convert: a frame in one format is the frame in each other format") {
                   .code == 0);
     }
     check_refused(shell, "clatter convert s.csv new.xyz",
-                  {"s.csv: a CSV has no box; give its scene with --scene"});
+                  {"s.csv: the file has no box; give its scene with --scene"});
     check_refused(shell, "clatter convert t.xyz --scene s.toml new.xyz",
                   {"--scene: t.xyz has a box; omit --scene"});
     check_refused(shell, "clatter convert c --frame 0 new.csv",
@@ -120,7 +125,7 @@ TEST_CASE("Convert: a file without particles keeps the dimension of its box") {
       const Outcome run = shell.run(
           "clatter measure s.toml --quiet --set particles.count=0 "
           "--until 2 --every 2 --trajectory t." +
-          format + " && clatter convert t." + format + " a.csv");
+          format + " && clatter convert " + run_in(format) + " a.csv");
       CAPTURE(run.err);
       REQUIRE(run.code == 0);
       CHECK(says(shell.read("a.csv"), ",vz") == spheres);
@@ -293,14 +298,16 @@ TEST_CASE("Convert: a pipe is refused, and a signal ends the reading of a scene 
 TEST_CASE("Convert: damaged binary files are refused") {
   const Shell shell;
   shell.write("s.toml", kSpheres);
-  for (const std::string format : {"gsd", "h5md"}) {
+  for (const std::string format : {"gsd", "h5md", "vtp"}) {
     REQUIRE(shell.run(kRun + "--every 1 --trajectory t." + format).code == 0);
-    const std::string whole = shell.read("t." + format);
+    const std::string whole = shell.read(format == "vtp" ? "t_000021.vtp" : "t." + format);
     for (const std::size_t size :
          {std::size_t{0}, std::size_t{100}, whole.size() / 2, whole.size() - 10}) {
       CAPTURE(size);
       shell.write("d." + format, whole.substr(0, size));
-      check_refused(shell, "clatter convert d." + format + " out.csv", {"d." + format + ": "});
+      // Files of VTK are XML, with lines.
+      check_refused(shell, "clatter convert d." + format + " out.csv",
+                    {"d." + format + (format == "vtp" ? ":" : ": ")});
     }
     // Each byte of the head in turn is damaged. The program gives a frame or an error. HDF5 may ask
     // for a huge allocation, which the address sanitizer must refuse as malloc does.

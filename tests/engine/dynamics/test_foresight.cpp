@@ -14,6 +14,7 @@
 #include "engine/dimension.h"
 #include "engine/dynamics/certificate.h"
 #include "engine/dynamics/foresight.h"
+#include "engine/dynamics/grain_array.h"
 #include "engine/dynamics/simulation.h"
 #include "engine/error.h"
 #include "engine/initial/start_state.h"
@@ -189,6 +190,20 @@ void compare_ways(const Scene& scene, bool observed) {
   compare_ways(model_of<D>(scene, kForesightSeed), start_state<D>(scene, kForesightSeed), observed);
 }
 
+// A mixture in which every particle has a size of its own.
+template <int D>
+void compare_sizes(const Scene& scene, bool observed) {
+  const Model<D> model = with_species(model_of<D>(scene, kForesightSeed));
+  State<D> start = mixed(model, start_state<D>(scene, kForesightSeed), 1.4);
+  const auto count = static_cast<double>(start.grains.size());
+  double shrunk = 1.0;
+  for (Grain& grain : start.grains) grain.radius *= shrunk -= 0.3 / count;
+  GrainArray grains;
+  grains.assign(start.grains);
+  REQUIRE(grains.kinds().empty());
+  compare_ways<D>(model, start, observed);
+}
+
 }  // namespace
 
 TEST_CASE("Foresight: tiles give the bits of the whole gas for mixtures") {
@@ -203,6 +218,15 @@ TEST_CASE("Foresight: tiles give the bits of the whole gas for mixtures") {
     const Scene spheres = parse_scene(kScenes[7], "a scene");
     const Model<3> model = with_species(model_of<3>(spheres, kForesightSeed));
     compare_ways<3>(model, mixed(model, start_state<3>(spheres, kForesightSeed), ratio), false);
+  }
+}
+
+// Up to 128 kinds of particles have numbers. Beyond, a tile copies the grain of each particle.
+TEST_CASE("Foresight: tiles give the bits of the whole gas for particles of all sizes") {
+  for (const bool observed : {false, true}) {
+    CAPTURE(observed);
+    compare_sizes<2>(parse_scene(kScenes[2], "a scene"), observed);
+    compare_sizes<3>(parse_scene(kScenes[7], "a scene"), observed);
   }
 }
 
