@@ -1,8 +1,8 @@
 #pragma once
 
 #include "app/view/controls.h"
-#include "app/view/panel_visibility.h"
 #include "app/view/session.h"
+#include "app/view/window_parts.h"
 
 namespace clatter {
 

@@ -1,8 +1,19 @@
-#include <algorithm>
-
 #include "app/view/panels.h"
 
+#include <algorithm>
+
 namespace clatter {
+
+bool gas_panels(Session& session, Controls& controls, MouseTools& tools,
+                const std::vector<std::string>& titles) {
+  gas_panel(session, controls);
+  compare_panel(session, controls, titles);
+  const bool takes_tool = tools.panel(session.scene(), controls);
+  box_panel(session, controls);
+  view_panel(session, controls);
+  accuracy_panel(session, controls);
+  return takes_tool;
+}
 
 void compare_panel(Session& session, Controls& controls, const std::vector<std::string>& titles) {
   if (!controls.group("Compare")) return;

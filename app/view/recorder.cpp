@@ -1,3 +1,5 @@
+#include "app/view/recorder.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <imgui.h>
@@ -13,57 +15,22 @@
 #include "app/runs/picture_scene.h"
 #include "app/system/batch_script.h"
 #include "app/system/exit_code.h"
-#include "app/view/gui.h"
+#include "app/view/host.h"
 #include "app/view/link.h"
+#include "app/view/panels.h"
+#include "app/view/viewport.h"
 #include "engine/scene/scene_file.h"
 #include "engine/scene/state_file.h"
 #include "engine/system/write_file.h"
 
-// The files of the window: scenes, pictures and films.
-
 namespace clatter {
 
-// Opens a scene file, or a picture of clatter, which contains its scene.
-void Gui::open_file(const std::string& file) {
-  try {
-    const std::uint64_t seed = seed_of_picture(file).value_or(session_.frame().seed);
-    before_loss([this, scene = load_any_scene(file), seed] { open(scene, seed); });
-  } catch (const std::exception& error) {
-    session_.report(error.what());
-  }
-}
-
-// Does something by which unsaved changes are lost, after a question if there are any. In a lecture
-// there is no question: undo returns to the former scene.
-void Gui::before_loss(std::function<void()> action) {
-  if (!session_.unsaved() || panels_.lecture) return action();
-  delayed_ = std::move(action);
-}
-
-bool Gui::may_close() {
-  if (!session_.unsaved()) return true;
-  delayed_ = [this] {
-    session_.set_saved();
-    host_.close();
-  };
-  return false;
-}
-
-void Gui::ask_about_changes() {
-  if (!delayed_) return;
-  const Answer typed = std::exchange(typed_answer_, Answer::None);
-  answer_question(unsaved_question(controls_, session_.opened().title, typed));
-}
-
-void Gui::answer_question(Answer answer) {
-  if (answer == Answer::None) return;
-  const std::function<void()> action = std::exchange(delayed_, nullptr);
-  if (answer == Answer::Save) save_scenes();
-  // A scene that could not be saved stays.
-  const bool acts = answer == Answer::Discard || !session_.unsaved();
-  log_.event("answer", {{"acts", acts}});
-  if (acts) action();
-}
+Recorder::Recorder(const WindowParts& parts)
+    : host_(parts.host),
+      log_(parts.log),
+      session_(parts.session),
+      controls_(parts.controls),
+      viewport_(parts.viewport) {}
 
 // The first free name: "clatter-1.png", "clatter-2.png", ... All extensions must be free, because a
 // start state and a film of a scene share its name.
@@ -81,9 +48,9 @@ static std::string free_name(const std::string& extension) {
 
 // The scene of a gas on screen. A start state that no file of the user has is written beside
 // `file`, as .csv. Start states of the gallery are not files.
-Scene Gui::recorded_beside(const Frame& gas, const std::string& file) const {
+Scene Recorder::recorded_beside(const Frame& gas, const std::string& file, Theme theme) const {
   Scene scene = session_.recorded(gas);
-  scene.view.theme = shown_view().theme;
+  scene.view.theme = theme;
   Start& start = scene.particles.start;
   const bool copied = !host_.has_user_files() && std::filesystem::exists(start.file);
   if (start.layout == Layout::File && (start.file.empty() || copied)) {
@@ -97,23 +64,23 @@ Scene Gui::recorded_beside(const Frame& gas, const std::string& file) const {
 }
 
 // The scenes of all gases for a picture, whose start states have its name and a letter.
-std::vector<ComparedScene> Gui::recorded_beside(const std::string& file) const {
+std::vector<ComparedScene> Recorder::recorded_beside(const std::string& file, Theme theme) const {
   std::vector<ComparedScene> scenes;
   for (const Frame* gas : frames_of(session_.frame())) {
     std::filesystem::path own = file;
     if (gas->gas > 0) {
       own.replace_filename(own.stem().string() + '-' + static_cast<char>('a' + gas->gas));
     }
-    scenes.push_back({recorded_beside(*gas, own.string()), gas->seed});
+    scenes.push_back({recorded_beside(*gas, own.string(), theme), gas->seed});
   }
   return scenes;
 }
 
-void Gui::screenshot() {
+void Recorder::screenshot(Theme theme) {
   if (!viewport_.drawn()) return;
   try {
     const std::string name = free_name(".png");
-    write_png(name, viewport_.picture(), picture_texts(recorded_beside(name)));
+    write_png(name, viewport_.picture(), picture_texts(recorded_beside(name, theme)));
     host_.deliver(name);
     session_.set_saved();
     log_.event("screenshot", {{"file", name}});
@@ -123,14 +90,13 @@ void Gui::screenshot() {
   }
 }
 
-// Saves the scene of each gas. Returns the names of the files; none after an error.
-std::vector<std::string> Gui::save_scenes() {
+std::vector<std::string> Recorder::save_scenes(Theme theme) {
   if (!session_.frame().scene) return {};
   try {
     std::vector<std::string> names;
     for (const Frame* gas : frames_of(session_.frame())) {
       names.push_back(free_name(".toml"));
-      write_file(names.back(), scene_to_toml(recorded_beside(*gas, names.back())));
+      write_file(names.back(), scene_to_toml(recorded_beside(*gas, names.back(), theme)));
       host_.deliver(names.back());
       log_.event("saved", {{"file", names.back()}});
     }
@@ -143,53 +109,7 @@ std::vector<std::string> Gui::save_scenes() {
   return {};
 }
 
-void Gui::open_film_dialog() {
-  const Frame& frame = session_.frame();
-  if (!frame.scene) return;
-  film_dialog_.open({frame.head, frame.speed, session_.view().overlay,
-                     !session_.view().plots.empty(), session_.view().pace},
-                    free_name(".mp4"));
-}
-
-void Gui::use_film_dialog() {
-  switch (film_dialog_.draw(controls_)) {
-    case FilmDialog::Action::Film:
-      return film();
-    case FilmDialog::Action::CopyCommand:
-      return copy_command();
-    case FilmDialog::Action::Cancel:
-    case FilmDialog::Action::None:
-      return;
-  }
-}
-
-// Saves the scenes of the film, and returns its command. No words: they could not be saved.
-std::vector<std::string> Gui::prepared_film() {
-  const std::vector<std::string> scenes = save_scenes();
-  if (scenes.empty()) return {};
-  return film_command(film_dialog_.film(), scenes, session_.frame().seed);
-}
-
-// Whether a shell reads a word as it is.
-static bool is_plain(const std::string& word) {
-  return std::ranges::all_of(word, [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) || std::strchr("._-/+", c) != nullptr;
-  });
-}
-
-void Gui::copy_command() {
-  const std::vector<std::string> words = prepared_film();
-  if (words.empty()) return;
-  std::string command;
-  for (const std::string& word : words) {
-    command += (command.empty() ? "" : " ") + (is_plain(word) ? word : shell_word(word));
-  }
-  host_.copy(command);
-  log_.event("command", {{"line", command}});
-  session_.report("Copied: " + command);
-}
-
-void Gui::copy_link() {
+void Recorder::copy_link() {
   if (!session_.frame().scene) return;
   try {
     const std::string link =
@@ -202,8 +122,91 @@ void Gui::copy_link() {
   }
 }
 
-void Gui::film() {
-  std::vector<std::string> arguments = prepared_film();
+void Recorder::draw(Theme theme) {
+  std::optional<double> filmed;
+  if (film_) filmed = film_->done();
+  if (screen_film_) filmed = ImGui::GetTime() - screen_film_->since;
+  const Films films = host_.has_processes() ? Films::OfRun
+                      : host_.recorder()    ? Films::OfScreen
+                                            : Films::None;
+  switch (record_panel(controls_, films, filmed)) {
+    case Recording::Screenshot:
+      screenshot(theme);
+      break;
+    case Recording::SaveScene:
+      save_scenes(theme);
+      break;
+    case Recording::RestoreScene:
+      session_.restore();
+      break;
+    case Recording::CopyLink:
+      copy_link();
+      break;
+    case Recording::Film:
+      open_dialog();
+      break;
+    case Recording::StopFilm:
+      film_->interrupt();
+      break;
+    case Recording::FilmScreen:
+      film_screen();
+      break;
+    case Recording::StopScreen:
+      stop_screen_film();
+      break;
+    case Recording::None:
+      break;
+  }
+}
+
+void Recorder::open_dialog() {
+  const Frame& frame = session_.frame();
+  if (!frame.scene) return;
+  film_dialog_.open({frame.head, frame.speed, session_.view().overlay,
+                     !session_.view().plots.empty(), session_.view().pace},
+                    free_name(".mp4"));
+}
+
+void Recorder::draw_dialog(Theme theme) {
+  switch (film_dialog_.draw(controls_)) {
+    case FilmDialog::Action::Film:
+      return film(theme);
+    case FilmDialog::Action::CopyCommand:
+      return copy_command(theme);
+    case FilmDialog::Action::Cancel:
+    case FilmDialog::Action::None:
+      return;
+  }
+}
+
+// Saves the scenes of the film, and returns its command. No words: they could not be saved.
+std::vector<std::string> Recorder::prepared_film(Theme theme) {
+  const std::vector<std::string> scenes = save_scenes(theme);
+  if (scenes.empty()) return {};
+  return film_command(film_dialog_.film(), scenes, session_.frame().seed);
+}
+
+// Whether a shell reads a word as it is.
+static bool is_plain(const std::string& word) {
+  return std::ranges::all_of(word, [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || std::strchr("._-/+", c) != nullptr;
+  });
+}
+
+void Recorder::copy_command(Theme theme) {
+  const std::vector<std::string> words = prepared_film(theme);
+  if (words.empty()) return;
+  std::string command;
+  for (const std::string& word : words) {
+    command += (command.empty() ? "" : " ") + (is_plain(word) ? word : shell_word(word));
+  }
+  host_.copy(command);
+  log_.event("command", {{"line", command}});
+  session_.report("Copied: " + command);
+}
+
+void Recorder::film(Theme theme) {
+  std::vector<std::string> arguments = prepared_film(theme);
   if (arguments.empty()) return;
   try {
     arguments.insert(arguments.end(), {"--progress", "json"});
@@ -215,7 +218,7 @@ void Gui::film() {
   }
 }
 
-void Gui::watch_film() {
+void Recorder::update() {
   if (!film_) return;
   const auto code = film_->poll();
   if (!code) return;
@@ -226,7 +229,7 @@ void Gui::watch_film() {
 }
 
 // Begins a film of the gas as the window shows it.
-void Gui::film_screen() {
+void Recorder::film_screen() {
   if (!viewport_.drawn()) return;
   try {
     ScreenRecorder& recorder = *host_.recorder();
@@ -238,15 +241,16 @@ void Gui::film_screen() {
   }
 }
 
-// Adds the picture on the window. A film that the host no longer records ends.
-void Gui::add_to_screen_film(int x, int y, Size size) {
+// A film that the host no longer records ends.
+void Recorder::add_picture(int x, int y, Size size) {
+  if (!screen_film_) return;
   const std::string failure = host_.recorder()->add(x, y, size);
   if (failure.empty()) return;
   stop_screen_film();
   session_.report(failure);
 }
 
-void Gui::stop_screen_film() {
+void Recorder::stop_screen_film() {
   host_.recorder()->end(screen_film_->file);
   log_.event("film", {{"file", screen_film_->file}});
   session_.report("Film: " + screen_film_->file);

@@ -47,4 +47,24 @@ struct PanelVisibility {
   }
 };
 
+class Controls;
+class Host;
+class MouseTools;
+class ScriptLog;
+class Session;
+class TextScale;
+class Viewport;
+
+/// The parts of the window on which its panels act.
+struct WindowParts {
+  Host& host;
+  ScriptLog& log;
+  Session& session;
+  Controls& controls;
+  Viewport& viewport;
+  MouseTools& mouse_tools;
+  TextScale& text_scale;
+  PanelVisibility& panels;
+};
+
 }  // namespace clatter
