@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "app/view/gui_keys.h"
-#include "app/view/lesson.h"
+#include "app/view/messages.h"
 #include "app/view/panels.h"
 #include "app/view/style.h"
 #include "app/view/top_bar.h"

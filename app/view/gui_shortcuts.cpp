@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "app/view/direction.h"
 #include "app/view/gui.h"
 #include "app/view/panels.h"
+#include "app/view/viewport.h"
 
 // The keyboard shortcuts of the window.
 

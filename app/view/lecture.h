@@ -3,12 +3,11 @@
 #include <cstdint>
 #include <utility>
 
-#include "app/view/fading_ink.h"
 #include "app/view/lecture_sliders.h"
+#include "app/view/lecture_tools.h"
 #include "app/view/messages.h"
 #include "app/view/mouse_tools.h"
 #include "app/view/session.h"
-#include "app/view/stopwatch.h"
 #include "app/view/window_parts.h"
 
 namespace clatter {

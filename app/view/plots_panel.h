@@ -10,9 +10,16 @@
 #include "app/plots/plots.h"
 #include "app/view/session.h"
 #include "app/view/window_parts.h"
+#include "render/charts/live_plot.h"
 #include "render/theme.h"
 
 namespace clatter {
+
+/// Draws a plot with axes and legend, `height` pixels high, over the width of the ImGui window.
+void draw_plot(const LivePlot& plot, float height);
+
+/// The data of a plot as CSV, one table per curve.
+std::string csv_of(const LivePlot& plot);
 
 /// The plots of the gases in the window: their time series, a profile and the tables of the scene's
 /// observables.

@@ -6,14 +6,22 @@
 #include <string>
 #include <vector>
 
+#include "app/view/controls.h"
 #include "app/view/playlist.h"
 #include "app/view/session.h"
-#include "app/view/unsaved_question.h"
 #include "app/view/window_input.h"
 #include "app/view/window_parts.h"
 #include "engine/embedded_file.h"
 
 namespace clatter {
+
+/// Answer to the question whether to save changes.
+enum class Answer { None, Save, Discard, Cancel };
+
+/// Draws the question whether to save the changes of the scene with this title, in the middle of
+/// the window. It blocks all other widgets. Returns the answer: that of a button, or the one that
+/// was `typed`.
+Answer unsaved_question(Controls& controls, const std::string& title, Answer typed);
 
 class Gallery;
 class PlotsPanel;

@@ -6,6 +6,12 @@
 
 namespace clatter {
 
+/// Symbols of buttons that control the time.
+enum class Icon { Play, Pause, Frame, Collision, Reset, CollisionBack, Back, Head };
+
+/// Button with a symbol, and the line continues after it. Returns true if it was pressed.
+bool icon_button(Controls& controls, const char* key, Icon icon, const char* help);
+
 /// A button of the bar at the top whose action is left to the caller.
 enum class BarButton { None, Sound, Lecture };
 

@@ -1,4 +1,4 @@
-#include "app/view/fading_ink.h"
+#include "app/view/lecture_tools.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,6 +39,22 @@ void FadingInk::paint(ImDrawList& list, ImU32 colour, float width, double now) c
     if (!begins) list.AddLine(points_[i - 1].place, place, ink, width);
     list.AddCircleFilled(place, 0.5f * width, ink);
   }
+}
+
+void Stopwatch::press(double time, Clock::time_point now) {
+  if (!started_) {
+    started_ = {time, now};
+  } else if (!stopped_) {
+    stopped_ = read(time, now);
+  } else {
+    clear();
+  }
+}
+
+Stopwatch::Reading Stopwatch::read(double time, Clock::time_point now) const {
+  if (stopped_) return *stopped_;
+  if (!started_) return {};
+  return {time - started_->time, std::chrono::duration<double>(now - started_->moment).count()};
 }
 
 }  // namespace clatter
