@@ -5,7 +5,7 @@
 #include "engine/picture/snapshot.h"
 #include "engine/stop_request.h"
 #include "render/camera.h"
-#include "render/gl/light_copy.h"
+#include "render/gl/canvas.h"
 #include "render/layers/arrow_layer.h"
 #include "render/layers/auto_ranges.h"
 #include "render/layers/average_layer.h"

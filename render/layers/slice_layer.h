@@ -4,7 +4,7 @@
 
 #include "engine/picture/snapshot.h"
 #include "render/layers/face_layer.h"
-#include "render/layers/field_texture.h"
+#include "render/layers/field_layer.h"
 
 namespace clatter {
 
