@@ -1,4 +1,4 @@
-#include "app/bench/plot_file.h"
+#include "app/bench/tables.h"
 
 #include "render/context/context.h"
 #include "render/output/png_sink.h"
