@@ -16,7 +16,6 @@
 #include "render/layers/fixture_layer.h"
 #include "render/layers/grid_layer.h"
 #include "render/layers/overlay.h"
-#include "render/layers/slice_layer.h"
 #include "render/layers/sphere_layer.h"
 #include "render/layers/sphere_light.h"
 #include "render/layers/trail_layer.h"

@@ -7,8 +7,6 @@
 #include <sstream>
 #include <utility>
 
-#include "render/gl/embedded_files.h"
-
 namespace clatter {
 
 namespace {

@@ -8,9 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "engine/embedded_file.h"
 #include "render/theme.h"
 
 namespace clatter {
+
+/// The fonts for text: DejaVuSans.ttf.
+std::span<const EmbeddedFile> embedded_fonts();
 
 /// Letters in one size.
 struct Font {
