@@ -8,7 +8,7 @@
 
 #include "app/bench/accuracy_output.h"
 #include "app/bench/pictures.h"
-#include "app/bench/plot_file.h"
+#include "app/bench/tables.h"
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
 #include "engine/error.h"

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "app/bench/plot_file.h"
+#include "app/bench/tables.h"
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
 #include "engine/dimension.h"

@@ -13,7 +13,7 @@
 #include <sstream>
 #include <vector>
 
-#include "app/bench/plot_file.h"
+#include "app/bench/tables.h"
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
 #include "engine/dimension.h"

@@ -10,7 +10,7 @@
 #include "render/context/context.h"
 #include "render/gl/canvas.h"
 #include "render/layers/renderer.h"
-#include "render/output/similarity.h"
+#include "render/output/image.h"
 
 namespace clatter {
 

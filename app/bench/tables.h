@@ -3,6 +3,7 @@
 #include <string>
 
 #include "engine/scene/scene.h"
+#include "render/charts/plot.h"
 
 namespace clatter {
 
@@ -34,5 +35,9 @@ Scene window_scene(int count);
 /// built again. `count` is the number of disks; 0: 10,000. Writes the table also to `json`, unless
 /// it is empty. Needs a display for GLFW. Returns the exit code.
 int bench_window(const std::string& json, int count);
+
+/// Writes the plot of a benchmark as a PNG file of 1600 x 1000 pixels. Throws RunError if no OpenGL
+/// context opens, or if the file cannot be written.
+void write_plot(const std::string& file, const Plot& plot);
 
 }  // namespace clatter

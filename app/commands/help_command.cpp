@@ -2,8 +2,7 @@
 
 #include "app/commands/command_tree.h"
 #include "app/commands/commands.h"
-#include "app/commands/key_help.h"
-#include "app/commands/manual_page.h"
+#include "app/commands/help_topics.h"
 #include "app/system/exit_code.h"
 #include "app/system/outputs.h"
 

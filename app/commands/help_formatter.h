@@ -1,9 +1,17 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstddef>
 #include <string>
 
 namespace clatter {
+
+/// Width of printed texts, in columns.
+inline constexpr std::size_t kTextWidth = 96;
+
+/// Breaks a text between words into lines of at most `width` columns. Keeps the line breaks of the
+/// text.
+std::string wrapped(const std::string& text, std::size_t width);
 
 /// The layout of help: a label for each value, then sentences, in lines of limited width. It is the
 /// same with all versions of CLI11.

@@ -9,7 +9,6 @@
 #include "app/commands/flags.h"
 #include "app/sweep/executor.h"
 #include "app/sweep/refinement.h"
-#include "app/sweep/run_one.h"
 #include "app/sweep/studies.h"
 #include "app/sweep/submit.h"
 #include "app/sweep/sweep_plot.h"

@@ -6,10 +6,14 @@
 #include <vector>
 
 #include "app/film/compared_scenes.h"
-#include "app/film/sound_preview.h"
+#include "app/film/frame_times.h"
 #include "app/plots/plot_recorder.h"
 #include "engine/picture/snapshot.h"
+#include "engine/run/scheduled_run.h"
+#include "render/gl/canvas.h"
 #include "render/layers/renderer.h"
+#include "render/output/image.h"
+#include "render/sound/synthesiser.h"
 
 // Films of several gases have a FilmCell per gas, which draws it as if it were alone. The first gas
 // is the Run. Each of the others is a Companion that runs to the same times; it hides whether its
@@ -17,6 +21,55 @@
 // are part of FilmState.
 
 namespace clatter {
+
+/// A copy of a gas that runs ahead for its clicks.
+class SoundPreview {
+ public:
+  virtual ~SoundPreview() = default;
+
+  /// Runs to a simulation time. Returns false at an interrupt. Throws PhysicalStop.
+  virtual bool run_until(double time) = 0;
+  /// The clicks since the last call, as ClickRecorder::take().
+  virtual std::vector<Click> take_clicks() = 0;
+};
+
+/// A preview from the present time of a run of `scene`. The run stays where it is.
+template <int D>
+std::unique_ptr<SoundPreview> preview_of(const ScheduledRun<D>& run, const Scene& scene);
+
+/// The scale of the first seconds of a film that have a click, over all of its gases. Ends early at
+/// an interrupt and where a gas stops.
+SoundScale sound_scale(const std::vector<std::unique_ptr<SoundPreview>>& gases,
+                       const FrameTimes& times);
+
+/// Draws a gas into its cell of the pictures of a film.
+class FilmCell {
+ public:
+  /// A cell of `size` with the heading `text`. The other arguments are as for Renderer.
+  FilmCell(const Gl& gl, Size size, int samples, bool transparent, const View& view,
+           OverlayText text);
+
+  const View& view() const { return view_; }
+  /// Sets the ends of the automatic colour ranges.
+  void fix(const RangeEnds& ends) { ranges_.fix(ends); }
+  /// The camera that shows the whole box.
+  Camera fit(const Snapshot& snapshot) {
+    return renderer_.fit(snapshot, canvas_.size(), view_, text_, ranges_.legends(snapshot, view_));
+  }
+  /// Sets the simulation time per second of film, for captions that fade.
+  void set_speed(double speed) { text_.speed = speed; }
+  /// Sets the title card to its state `seconds` after the start of the film.
+  void show_card(double seconds);
+  /// The picture of a snapshot. `whole` is the result of fit(). Throws Interrupted.
+  Image draw(const Snapshot& snapshot, const Camera& whole);
+
+ private:
+  View view_;
+  OverlayText text_;
+  Canvas canvas_;
+  Renderer renderer_;
+  AutoRanges ranges_;
+};
 
 /// A gas beside the run of a film, in step with it. Its scene has disks or spheres.
 class Companion {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "app/film/companion.h"
 #include "app/film/film_limits.h"
-#include "app/film/sound_preview.h"
 #include "engine/checkpoint/archive.h"
 #include "engine/error.h"
 #include "engine/system/signals.h"

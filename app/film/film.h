@@ -9,7 +9,6 @@
 
 #include "app/film/companion.h"
 #include "app/film/compared_scenes.h"
-#include "app/film/film_cell.h"
 #include "app/film/film_ranges.h"
 #include "app/film/frame_times.h"
 #include "app/plots/plot_recorder.h"

@@ -1,6 +1,6 @@
 #include "app/film/frame_times.h"
 
-#include "engine/live/pace_curve.h"
+#include "engine/live/pace.h"
 
 namespace clatter {
 

@@ -15,7 +15,6 @@
 #include "app/measure/feature_cost.h"
 #include "app/results/csv_tables.h"
 #include "app/results/hdf5_file.h"
-#include "app/results/json_text.h"
 #include "app/results/result_json.h"
 #include "app/results/theory_json.h"
 #include "app/results/trajectory.h"

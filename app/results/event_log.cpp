@@ -8,7 +8,7 @@
 #include <iterator>
 #include <limits>
 
-#include "app/results/growing_dataset.h"
+#include "app/results/hdf5_writer.h"
 #include "engine/error.h"
 #include "engine/scene/field.h"
 #include "engine/system/write_file.h"

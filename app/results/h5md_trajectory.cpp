@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/results/growing_dataset.h"
 #include "app/results/h5md_reader.h"
+#include "app/results/hdf5_writer.h"
 #include "app/results/isolated_hdf5.h"
 #include "app/results/three_axes.h"
 #include "engine/error.h"

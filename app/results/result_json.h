@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,5 +38,9 @@ template <int D>
 nlohmann::ordered_json result_json(const Scene& scene, std::uint64_t seed,
                                    const Simulation<D>& simulation, const Measured& measured,
                                    const Performance& performance);
+
+/// The text of a JSON value, indented by one space per level. Lists of plain values, such as series
+/// and profiles, are on one line each.
+std::string json_text(const nlohmann::ordered_json& json);
 
 }  // namespace clatter

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/laws/fixture.h"
 #include "engine/measure/measurement.h"
 
 namespace clatter {

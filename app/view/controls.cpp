@@ -138,6 +138,15 @@ std::vector<std::pair<std::string, std::string>> Controls::take_missing() {
   return missing;
 }
 
+void Controls::report_missing(std::uint64_t checked) {
+  const auto missing = take_missing();
+  if (checked == session_.frame().run) return;
+  for (const auto& [name, near] : missing) {
+    session_.report("the scene has no control " + in_quotes(name) +
+                    (near.empty() ? "" : "; try " + in_quotes(near)));
+  }
+}
+
 bool Controls::group(const char* name) {
   if (chosen_) return true;
   if (ImGui::GetCursorPosY() > ImGui::GetCursorStartPos().y) ImGui::Spacing();

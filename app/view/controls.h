@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -57,6 +58,8 @@ class Controls {
   std::vector<std::string> take_sliders() { return std::exchange(sliders_, {}); }
   /// The chosen names without a control since the last call, with the nearest name of a control.
   std::vector<std::pair<std::string, std::string>> take_missing();
+  /// Reports the names of take_missing(), unless the newest frame is of the run `checked`.
+  void report_missing(std::uint64_t checked);
 
   /// Collapsible heading of a group in a panel. Returns true if the group is open.
   bool group(const char* name);

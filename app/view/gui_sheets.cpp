@@ -86,7 +86,7 @@ void Gui::sheet() {
       break;
     case Sheet::Gas:
       gas_panel(session_, controls_);
-      compare_panel(session_, controls_, titles_);
+      compare_panel(session_, controls_, plots_.titles());
       mouse_tools_.panel(session_.scene(), controls_);
       box_panel(session_, controls_);
       break;
@@ -95,10 +95,10 @@ void Gui::sheet() {
       window_controls();
       break;
     case Sheet::Record:
-      record();
+      recorder_.draw(lecture_.theme());
       break;
     case Sheet::Plots:
-      plots();
+      plots_.draw(panel_theme(lecture_.shown_view()));
       break;
     case Sheet::Lesson:
       for (const std::string* text : {&session_.scene().goal, &session_.scene().try_this}) {
@@ -125,13 +125,13 @@ void Gui::chosen_controls() {
   play_row(session_, controls_);
   sound_control();
   all_controls();
-  record();
+  recorder_.draw(lecture_.theme());
   window_controls();
   const float end = ImGui::GetCursorPosY();
   const bool empty = end == start;
   strip_ = empty ? 0.0f : end - ImGui::GetStyle().ItemSpacing.y + ImGui::GetStyle().WindowPadding.y;
   ImGui::End();
-  name_missing_controls();
+  controls_.report_missing(checked_run_);
   checked_run_ = session_.frame().run;
 }
 

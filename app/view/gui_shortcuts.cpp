@@ -6,36 +6,64 @@
 #include <cmath>
 #include <utility>
 
-#include "app/view/direction.h"
 #include "app/view/gui.h"
 #include "app/view/panels.h"
+#include "app/view/viewport.h"
 
 // The keyboard shortcuts of the window.
 
 namespace clatter {
 
+// Switches the colour range of the particles between automatic and a fixed range of round numbers.
+static void fix_range(const Session& session, Controls& controls) {
+  View view = session.view();
+  if (view.range.kind != ColourRange::Auto) {
+    view.range = {};
+  } else {
+    const auto ends = colour_ends(session.frame().snapshot, view.colour_by);
+    if (ends[1] > 0.0) view.range = {ColourRange::Given, ends};
+  }
+  controls.show(view, true);
+}
+
+// Makes the picked particle the tracer. Without another particle it ends the tracer.
+static void trace(const Session& session, Controls& controls,
+                  const std::optional<std::size_t>& picked) {
+  constexpr double kSeconds = 20.0;  // of playing
+  View view = session.view();
+  const std::optional<Tracer> before = std::exchange(view.tracer, std::nullopt);
+  if (picked && !(before && before->particle == static_cast<int>(*picked))) {
+    view.tracer = Tracer{static_cast<int>(*picked), kSeconds * session.frame().speed};
+  }
+  controls.show(view, view.tracer != before);
+}
+
+// Spheres are seen from the direction with this key, if there is one.
+static void face_preset(const Session& session, Controls& controls, char key) {
+  const auto preset = std::ranges::find(kPresets, key, &Preset::key);
+  if (preset == kPresets.end() || session.scene().dimension() == 2) return;
+  View view = session.view();
+  const bool changed = face(view, *preset);
+  controls.show(view, changed);
+}
+
 void Gui::use_keys() {
-  for (const std::string& file : input_.take_dropped()) open_file(file);
+  for (const std::string& file : input_.take_dropped()) opener_.open_file(file);
   const std::string typed = input_.take_typed();
   for (const KeyPress& press : input_.take_presses()) {
-    if (delayed_) {
-      use_question_key(press);
+    if (opener_.asks()) {
+      opener_.press(press);
       continue;
     }
-    if (film_dialog_.is_open()) {
-      if (press.key == GLFW_KEY_ESCAPE) film_dialog_.close();
+    if (recorder_.has_dialog()) {
+      if (press.key == GLFW_KEY_ESCAPE) recorder_.close_dialog();
       continue;
     }
     if (panels_.gallery) gallery_.press(press);
     use_function_key(press);
     if (!ImGui::GetIO().WantTextInput) use_key(press, typed);
   }
-  if (!ImGui::GetIO().WantTextInput && !delayed_ && !film_dialog_.is_open()) use_signs(typed);
-}
-
-void Gui::use_question_key(const KeyPress& press) {
-  if (press.key == GLFW_KEY_ENTER) typed_answer_ = Answer::Save;
-  if (press.key == GLFW_KEY_ESCAPE) typed_answer_ = Answer::Cancel;
+  if (!ImGui::GetIO().WantTextInput && !opener_.asks() && !recorder_.has_dialog()) use_signs(typed);
 }
 
 void Gui::use_function_key(const KeyPress& press) {
@@ -45,7 +73,7 @@ void Gui::use_function_key(const KeyPress& press) {
     case GLFW_KEY_F1:
       return panels_.toggle_help();
     case GLFW_KEY_F2:
-      return screenshot();
+      return recorder_.screenshot(lecture_.theme());
     case GLFW_KEY_F11:
       return host_.toggle_full_screen();
     default:
@@ -78,7 +106,7 @@ void Gui::use_key(const KeyPress& press, const std::string& typed) {
     default:
       break;
   }
-  if (panels_.lecture && use_lecture_key(press.sign)) return;
+  if (panels_.lecture && lecture_.use_key(press.sign)) return;
   switch (press.sign) {
     case '.':
     case ',':
@@ -96,15 +124,14 @@ void Gui::use_key(const KeyPress& press, const std::string& typed) {
     case 'h':
       return panels_.toggle_help();
     case 'l':
-      return lecture(!panels_.lecture);
+      return lecture_.toggle();
     case 'm':
-      return fix_range();
+      return fix_range(session_, controls_);
     case 'n':
       return session_.select((session_.gas() + 1) % session_.gases());
     case 'p':
       if (panels_.lecture && !panels_.panels) {
-        tools_.plot = !tools_.plot;
-        return;
+        return lecture_.toggle_plot();
       }
       return panels_.toggle(Sheet::Plots);
     case 'r':
@@ -114,26 +141,9 @@ void Gui::use_key(const KeyPress& press, const std::string& typed) {
     case 't':
       return panels_.toggle(Sheet::Lesson);
     case 'v':
-      return trace();
+      return trace(session_, controls_, viewport_.picked());
     default:
-      return face_preset(press.sign);
-  }
-}
-
-// The keys of the tools in lecture mode. Returns whether the key is one of them.
-bool Gui::use_lecture_key(char key) {
-  switch (key) {
-    case 'd':
-      toggle_pen();
-      return true;
-    case 'k':
-      tools_.pointer = !tools_.pointer;
-      return true;
-    case 'w':
-      press_stopwatch();
-      return true;
-    default:
-      return false;
+      return face_preset(session_, controls_, press.sign);
   }
 }
 
@@ -144,7 +154,7 @@ void Gui::use_control_key(const KeyPress& press) {
     case 'y':
       return session_.redo();
     case 's':
-      save_scenes();
+      recorder_.save_scenes(lecture_.theme());
       return;
     case 'q':
       return host_.close();
@@ -162,11 +172,11 @@ void Gui::use_signs(const std::string& typed) {
     if (sign == ',' && !panels_.gallery) session_.step_frame_back();
     // Not every letter begins the search, so that G closes the gallery.
     if (sign == '/' && panels_.gallery) gallery_.search();
-    if (sign == '[') step_scene(-1);
-    if (sign == ']') step_scene(1);
+    if (sign == '[') opener_.step(-1);
+    if (sign == ']') opener_.step(1);
     const auto tool = static_cast<std::size_t>(sign) - '1';
     if (tool < kTools.size() && !panels_.gallery && !controls_.chooses()) {
-      toggle_tool(kTools[tool].tool);
+      lecture_.toggle_tool(kTools[tool].tool);
     }
   }
 }
@@ -175,47 +185,13 @@ void Gui::close_something() {
   if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return controls_.close_list();
   if (session_.frame().opening && session_.frame().run > 0) return session_.cancel_open();
   if (ImGui::GetIO().WantTextInput && !panels_.gallery) return controls_.cancel_typing();
-  for (bool* open : {&panels_.gallery, &panels_.help, &tools_.settings}) {
-    if (std::exchange(*open, false)) return;
-  }
+  if (std::exchange(panels_.gallery, false) || std::exchange(panels_.help, false)) return;
+  if (lecture_.close_settings()) return;
   if (mouse_tools_.tool()) return mouse_tools_.leave();
   if (std::exchange(panels_.plots, false)) return;
   if (panels_.narrow && panels_.sheet != Sheet::None) return panels_.toggle(panels_.sheet);
-  if (panels_.lecture) return lecture(false);
+  if (panels_.lecture) return lecture_.toggle();
   viewport_.let_go();
-}
-
-// Switches the colour range of the particles between automatic and a fixed range of round numbers.
-void Gui::fix_range() {
-  View view = session_.view();
-  if (view.range.kind != ColourRange::Auto) {
-    view.range = {};
-  } else {
-    const auto ends = colour_ends(session_.frame().snapshot, view.colour_by);
-    if (ends[1] > 0.0) view.range = {ColourRange::Given, ends};
-  }
-  controls_.show(view, true);
-}
-
-// Makes the picked particle the tracer. Without another particle it ends the tracer.
-void Gui::trace() {
-  constexpr double kSeconds = 20.0;  // of playing
-  View view = session_.view();
-  const auto picked = viewport_.picked();
-  const std::optional<Tracer> before = std::exchange(view.tracer, std::nullopt);
-  if (picked && !(before && before->particle == static_cast<int>(*picked))) {
-    view.tracer = Tracer{static_cast<int>(*picked), kSeconds * session_.frame().speed};
-  }
-  controls_.show(view, view.tracer != before);
-}
-
-// Spheres are seen from the direction with this key, if there is one.
-void Gui::face_preset(char key) {
-  const auto preset = std::ranges::find(kPresets, key, &Preset::key);
-  if (preset == kPresets.end() || session_.scene().dimension() == 2) return;
-  View view = session_.view();
-  const bool changed = face(view, *preset);
-  controls_.show(view, changed);
 }
 
 }  // namespace clatter

@@ -46,4 +46,8 @@ void particle_label(const Frame& frame, std::size_t particle, bool follows, ImVe
 /// window of `width` x `height`.
 void help_window(int dimension, float width, float height);
 
+/// Draws the goal of a scene and its suggestions along the lower edge of an area, with a button
+/// that closes the strip. Returns the height of the strip; 0 if the scene has neither text.
+float lesson_strip(const Scene& scene, const Area& area, Controls& controls, bool& open);
+
 }  // namespace clatter

@@ -6,12 +6,17 @@
 #include <vector>
 
 #include "app/view/controls.h"
+#include "app/view/mouse_tools.h"
 #include "app/view/session.h"
 
 namespace clatter {
 
 // The groups of the left panel. Each draws into the current ImGui window.
 
+/// All groups of the gas, one below the other. `titles` are as in compare_panel(). Returns true if
+/// a mouse tool was chosen.
+bool gas_panels(Session& session, Controls& controls, MouseTools& tools,
+                const std::vector<std::string>& titles);
 /// Number of particles and their collision laws.
 void gas_panel(Session& session, Controls& controls);
 /// Particles of each species of a mixture, and the restitution of each two; nothing without

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string>
 
-#include "app/view/direction.h"
 #include "app/view/enum_list.h"
 #include "app/view/panels.h"
+#include "app/view/viewport.h"
 
 // The controls of the view that only spheres have.
 

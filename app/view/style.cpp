@@ -2,10 +2,23 @@
 
 #include <cmath>
 
+#include "app/view/controls.h"
+
 namespace clatter {
 
 Colour accent_colour() {
   return {0x3d, 0x8f, 0xd6};
+}
+
+void TextScale::draw(Controls& controls) {
+  controls.number({.key = "window.scale",
+                   .name = "Size",
+                   .help = "Of all texts and widgets of the window",
+                   .low = 1.0,
+                   .high = 3.0,
+                   .format = "%.2f"},
+                  wanted_, 1.0);
+  if (!ImGui::IsMouseDown(0)) value_ = wanted_;
 }
 
 ThemeColours panel_theme(View view) {

@@ -6,9 +6,24 @@
 
 namespace clatter {
 
+class Controls;
+
 /// Sets the style of the panels for a text size in pixels and a theme. All lengths scale with the
 /// text size. Widgets are at least `least_target` pixels high; 0: usual height.
 void apply_style(float text_size, float least_target, const ThemeColours& theme);
+
+/// The scale of all texts and widgets of the window, which the user chooses.
+class TextScale {
+ public:
+  /// Draws the slider. It acts when it is released, because it moves itself.
+  void draw(Controls& controls);
+  /// The scale, 1 at first.
+  double value() const { return value_; }
+
+ private:
+  double wanted_ = 1.0;  // of the slider
+  double value_ = 1.0;
+};
 
 /// The colours of the view's theme, without the background colour of the view.
 ThemeColours panel_theme(View view);

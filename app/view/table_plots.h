@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "app/plots/history.h"
-#include "app/view/plot.h"
 #include "engine/observables/observable.h"
+#include "render/charts/live_plot.h"
 #include "render/theme.h"
 
 namespace clatter {

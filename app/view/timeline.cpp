@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "app/plots/plot_colours.h"
-#include "app/view/icons.h"
 #include "app/view/style.h"
+#include "app/view/top_bar.h"
 #include "render/typography/fonts.h"
 
 namespace clatter {

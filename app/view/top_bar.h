@@ -1,10 +1,16 @@
 #pragma once
 
 #include "app/view/controls.h"
-#include "app/view/panel_visibility.h"
 #include "app/view/session.h"
+#include "app/view/window_parts.h"
 
 namespace clatter {
+
+/// Symbols of buttons that control the time.
+enum class Icon { Play, Pause, Frame, Collision, Reset, CollisionBack, Back, Head };
+
+/// Button with a symbol, and the line continues after it. Returns true if it was pressed.
+bool icon_button(Controls& controls, const char* key, Icon icon, const char* help);
 
 /// A button of the bar at the top whose action is left to the caller.
 enum class BarButton { None, Sound, Lecture };

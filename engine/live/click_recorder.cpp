@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "engine/physics/elementary.h"
-#include "engine/physics/quantile.h"
 
 namespace clatter {
 

@@ -16,7 +16,7 @@
 #include "engine/live/event_rate.h"
 #include "engine/live/frame.h"
 #include "engine/live/gases_in_step.h"
-#include "engine/live/opening_gases.h"
+#include "engine/live/opening_run.h"
 #include "engine/live/pace.h"
 #include "engine/live/played_stretch.h"
 #include "engine/live/rewinder.h"

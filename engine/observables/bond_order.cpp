@@ -3,7 +3,7 @@
 #include <complex>
 
 #include "engine/observables/lag_table.h"
-#include "engine/observables/near_pairs.h"
+#include "engine/observables/near_cells.h"
 
 namespace clatter {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include "engine/observables/count_bins.h"
+#include "engine/observables/bins.h"
 #include "engine/observables/histogram.h"
-#include "engine/observables/near_pairs.h"
+#include "engine/observables/near_cells.h"
 
 namespace clatter {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/observables/count_bins.h"
+#include "engine/observables/bins.h"
 #include "engine/observables/histogram.h"
 
 namespace clatter {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "engine/observables/bins.h"
 #include "engine/observables/histogram.h"
-#include "engine/observables/log_bins.h"
 
 namespace clatter {
 

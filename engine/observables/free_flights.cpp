@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/observables/bins.h"
 #include "engine/observables/histogram.h"
-#include "engine/observables/log_bins.h"
 
 namespace clatter {
 

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/observables/count_bins.h"
-#include "engine/observables/log_bins.h"
-#include "engine/observables/signed_bins.h"
+#include "engine/observables/bins.h"
 
 namespace clatter {
 

@@ -1,6 +1,6 @@
 #include "engine/observables/local_density.h"
 
-#include "engine/observables/count_bins.h"
+#include "engine/observables/bins.h"
 #include "engine/observables/histogram.h"
 
 namespace clatter {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/dynamics/simulation.h"
 #include "engine/laws/model.h"
 #include "engine/vec.h"
 
@@ -126,5 +127,15 @@ inline void NearCells<D>::each_run(const Visit& visit) const {
 
 extern template class NearCells<2>;
 extern template class NearCells<3>;
+
+/// Whether two particles that NearCells has found are within `range` times the distance of their
+/// centres at contact. All pairs of particles that are alike are.
+template <int D>
+bool are_near(const Simulation<D>& simulation, std::uint32_t first, std::uint32_t second,
+              const Vec<D>& apart, double range) {
+  if (!simulation.is_mixture()) return true;
+  const double contact = simulation.grain(first).radius + simulation.grain(second).radius;
+  return apart.squaredNorm() <= range * range * contact * contact;
+}
 
 }  // namespace clatter

@@ -1,7 +1,7 @@
 #include "engine/observables/plane_current.h"
 
+#include "engine/observables/bins.h"
 #include "engine/observables/histogram.h"
-#include "engine/observables/signed_bins.h"
 
 namespace clatter {
 

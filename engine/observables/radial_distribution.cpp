@@ -6,8 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "engine/observables/region_of_centres.h"
-
 namespace clatter {
 
 // Sums: samples, g at contact times samples, pairs in each bin.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/observables/region_of_centres.h"
+#include "engine/observables/radial_distribution.h"
 #include "engine/scene/enum_names.h"
 
 namespace clatter {

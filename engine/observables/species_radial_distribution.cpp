@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "engine/observables/radial_distribution.h"
-#include "engine/observables/region_of_centres.h"
 
 namespace clatter {
 

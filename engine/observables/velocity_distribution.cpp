@@ -4,9 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "engine/observables/bins.h"
 #include "engine/observables/histogram.h"
-#include "engine/observables/log_bins.h"
-#include "engine/observables/signed_bins.h"
 #include "engine/scene/enum_names.h"
 
 namespace clatter {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "engine/laws/wall.h"
+#include "engine/observables/bins.h"
 #include "engine/observables/histogram.h"
-#include "engine/observables/signed_bins.h"
 
 namespace clatter {
 

@@ -4,7 +4,7 @@ namespace clatter {
 
 // Elementary functions with the same bits on every machine. Functions of C libraries differ in the
 // last digit between libraries, and may differ between processors. The functions here use only + -
-// * / and sqrt of doubles. Every result is within 1 ulp of the exact value.
+// * / and sqrt of doubles. A result without a stated error is within 1 ulp of the exact value.
 
 /// Sine and cosine of one angle.
 struct SineCosine {
@@ -31,5 +31,12 @@ double acos_turns(double x);
 
 /// Natural logarithm of a finite x > 0, subnormal numbers included.
 double natural_log(double x);
+
+/// The value z below which a standard normal variable, cut at -3 and 3, is with a probability of
+/// 0..1. The error is below 1e-12.
+double cut_normal_quantile(double probability);
+
+/// exp(x) for |x| <= 20 with a relative error below 1e-12.
+double exponential(double x);
 
 }  // namespace clatter

@@ -18,7 +18,6 @@
 #include "engine/scene/scene_document.h"
 #include "engine/scene/scene_keys.h"
 #include "engine/scene/schedule.h"
-#include "engine/scene/species_checks.h"
 #include "engine/scene/state_file.h"
 #include "engine/system/read_file.h"
 #include "engine/text.h"

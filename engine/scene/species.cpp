@@ -1,7 +1,6 @@
 #include "engine/scene/species.h"
 
 #include "engine/physics/elementary.h"
-#include "engine/physics/quantile.h"
 
 namespace clatter {
 

@@ -1,5 +1,3 @@
-#include "engine/scene/species_checks.h"
-
 #include <array>
 #include <cmath>
 #include <set>
@@ -11,6 +9,7 @@
 #include "engine/physics/lattice.h"
 #include "engine/physics/theory.h"
 #include "engine/scene/limits.h"
+#include "engine/scene/scene_checks.h"
 #include "engine/scene/scene_document.h"
 #include "engine/text.h"
 

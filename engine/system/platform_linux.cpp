@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "engine/system/control_groups.h"
+#include "engine/system/allocation.h"
 #include "engine/system/platform.h"
 
 namespace clatter {

@@ -5,7 +5,7 @@
 
 #include "render/charts/chart_layout.h"
 #include "render/typography/fonts.h"
-#include "render/typography/gui_picture.h"
+#include "render/typography/gui_layer.h"
 
 namespace clatter {
 

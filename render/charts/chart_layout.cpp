@@ -6,7 +6,7 @@
 
 #include "render/chart_axis.h"
 #include "render/charts/chart_marker.h"
-#include "render/charts/text_widths.h"
+#include "render/typography/fonts.h"
 
 namespace clatter {
 

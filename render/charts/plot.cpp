@@ -9,7 +9,7 @@
 
 #include "render/typeset_number.h"
 #include "render/typography/fonts.h"
-#include "render/typography/gui_picture.h"
+#include "render/typography/gui_layer.h"
 
 namespace clatter {
 

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "engine/error.h"
-#include "render/gl/embedded_files.h"
 
 namespace clatter {
 

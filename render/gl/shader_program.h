@@ -1,11 +1,16 @@
 #pragma once
 
+#include <span>
 #include <string_view>
 
+#include "engine/embedded_file.h"
 #include "render/gl/gl_object.h"
 #include "render/palette.h"
 
 namespace clatter {
+
+/// The files of shaders/.
+std::span<const EmbeddedFile> embedded_shaders();
 
 /// A compiled and linked pair of a vertex and a fragment shader of shaders/.
 class Program {

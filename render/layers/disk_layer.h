@@ -5,7 +5,7 @@
 
 #include "engine/picture/snapshot.h"
 #include "render/camera.h"
-#include "render/gl/instance_numbers.h"
+#include "render/gl/gl_object.h"
 #include "render/gl/shader_program.h"
 #include "render/layers/coverage.h"
 #include "render/layers/disk_colours.h"

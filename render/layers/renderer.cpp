@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "render/camera_path.h"
-#include "render/layers/space_lines.h"
+#include "render/layers/line_layer.h"
 #include "render/species_colours.h"
 #include "render/theme.h"
 

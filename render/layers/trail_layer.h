@@ -5,7 +5,7 @@
 #include "engine/picture/snapshot.h"
 #include "render/camera.h"
 #include "render/gl/shader_program.h"
-#include "render/layers/strokes.h"
+#include "render/layers/chords.h"
 #include "render/tiling.h"
 
 namespace clatter {

@@ -44,4 +44,11 @@ std::optional<std::string> png_text(const std::filesystem::path& path, std::stri
 void write_png(const std::filesystem::path& path, const Image& image,
                std::span<const PngText> texts = {});
 
+/// Structural similarity index of two pictures of equal size (Wang, Bovik, Sheikh & Simoncelli
+/// 2004); 1: equal. It is the mean over the luma of squares of 8 x 8 pixels, 4 pixels apart.
+double structural_similarity(const Image& a, const Image& b);
+
+/// A picture resampled to another size with bilinear interpolation.
+Image resized(const Image& image, Size size);
+
 }  // namespace clatter

@@ -1,12 +1,11 @@
 #include "render/typography/fonts.h"
 
 #include <algorithm>
+#include <array>
 #include <cfloat>
 #include <cmath>
 #include <sstream>
 #include <utility>
-
-#include "render/gl/embedded_files.h"
 
 namespace clatter {
 
@@ -114,6 +113,20 @@ void draw_text(ImDrawList& list, const Font& font, ImVec2 place, const Ink& ink,
       IM_COL32(ink.halo.red, ink.halo.green, ink.halo.blue, kHalo * ink.colour.alpha / 255);
   for (const auto& [dx, dy] : {std::pair(-1, 0), {1, 0}, {0, -1}, {0, 1}}) write(dx, dy, halo);
   write(0, 0, packed(ink.colour));
+}
+
+static constexpr double kMeasured = 32.0;  // size, pixels per em
+
+TextWidths::TextWidths(const std::string& letters)
+    : font_(add_letters(atlas_, letters, std::array{kMeasured}).front()) {}
+
+double TextWidths::operator()(const std::string& text, double size) const {
+  return text_extent(font_, text).x * size / kMeasured;
+}
+
+std::vector<std::string> TextWidths::lines(const std::string& text, double size,
+                                           double width) const {
+  return broken_lines(text, [&](const std::string& line) { return (*this)(line, size) <= width; });
 }
 
 }  // namespace clatter

@@ -8,9 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "engine/embedded_file.h"
 #include "render/theme.h"
 
 namespace clatter {
+
+/// The fonts for text: DejaVuSans.ttf.
+std::span<const EmbeddedFile> embedded_fonts();
 
 /// Letters in one size.
 struct Font {
@@ -62,5 +66,24 @@ ImU32 packed(Colour colour);
 /// broken.
 void draw_text(ImDrawList& list, const Font& font, ImVec2 place, const Ink& ink,
                const std::string& text, float wrap = 0.0f);
+
+/// Measures texts of any size. All sizes of the typeface have the same proportions.
+class TextWidths {
+ public:
+  /// Measures texts with these letters.
+  explicit TextWidths(const std::string& letters);
+  TextWidths(const TextWidths&) = delete;
+  TextWidths& operator=(const TextWidths&) = delete;
+
+  /// The width of a text of one line. `size` is in pixels per em.
+  double operator()(const std::string& text, double size) const;
+
+  /// The lines of a text broken at a width, in pixels. A longer word has a line of its own.
+  std::vector<std::string> lines(const std::string& text, double size, double width) const;
+
+ private:
+  ImFontAtlas atlas_;
+  Font font_;
+};
 
 }  // namespace clatter

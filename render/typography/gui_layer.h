@@ -4,8 +4,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 
+#include "render/context/gl.h"
 #include "render/gl/shader_program.h"
+#include "render/output/image.h"
+#include "render/palette.h"
 
 namespace clatter {
 
@@ -39,5 +43,11 @@ class GuiLayer {
   Buffer indices_;
   VertexArray array_;
 };
+
+/// The picture that a function draws by Dear ImGui, with the fonts that another function has added
+/// to the atlas before. Throws RunError if OpenGL does not support the size.
+Image gui_picture(const Gl& gl, Size size, Colour background,
+                  const std::function<void(ImFontAtlas&)>& add_fonts,
+                  const std::function<void(ImDrawList&)>& draw);
 
 }  // namespace clatter

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/plots/plots.h"
-#include "app/view/plot.h"
+#include "app/view/plots_panel.h"
 #include "render/typography/fonts.h"
 #include "render/typography/gui_context.h"
 #include "tests/support/drawn_text.h"

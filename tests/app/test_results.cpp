@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
-#include "app/results/json_text.h"
+#include "app/results/result_json.h"
 #include "engine/dimension.h"
 #include "tests/app/check_same.h"
 #include "tests/app/expected_values.h"

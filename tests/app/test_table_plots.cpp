@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "app/view/plots_panel.h"
 #include "app/view/table_plots.h"
 #include "engine/scene/scene_file.h"
 #include "tests/app/plot_checks.h"

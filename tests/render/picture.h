@@ -9,7 +9,7 @@
 #include "render/context/context.h"
 #include "render/gl/canvas.h"
 #include "render/layers/renderer.h"
-#include "render/output/similarity.h"
+#include "render/output/image.h"
 #include "render/palette.h"
 #include "render/theme.h"
 

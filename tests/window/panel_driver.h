@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/view/controls.h"
-#include "app/view/panel_visibility.h"
+#include "app/view/window_parts.h"
 #include "render/typography/fonts.h"
 #include "render/typography/gui_context.h"
 #include "tests/support/temporary_folder.h"

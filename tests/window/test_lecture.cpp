@@ -11,10 +11,9 @@
 #include <memory>
 
 #include "app/plots/plots.h"
-#include "app/view/fading_ink.h"
 #include "app/view/lecture.h"
+#include "app/view/lecture_tools.h"
 #include "app/view/playlist.h"
-#include "app/view/stopwatch.h"
 #include "engine/error.h"
 #include "engine/scene/scene_file.h"
 #include "render/typography/gui_context.h"

@@ -4,8 +4,8 @@
 
 #include "app/view/mouse_tools.h"
 #include "app/view/panels.h"
+#include "app/view/scene_opener.h"
 #include "app/view/top_bar.h"
-#include "app/view/unsaved_question.h"
 #include "tests/support/messages.h"
 #include "tests/window/panel_actions.h"
 

@@ -12,7 +12,7 @@
 
 #include "app/view/messages.h"
 #include "app/view/panels.h"
-#include "app/view/plot.h"
+#include "app/view/plots_panel.h"
 #include "app/view/top_bar.h"
 #include "engine/scene/scene_file.h"
 #include "tests/support/messages.h"

@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/observables/bins.h"
 #include "engine/observables/free_flights.h"
-#include "engine/observables/log_bins.h"
 #include "engine/physics/theory.h"
 #include "tests/engine/observables/observed.h"
 #include "tests/support/statistics.h"

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "engine/observables/signed_bins.h"
+#include "engine/observables/bins.h"
 #include "tests/engine/observables/observed.h"
 
 using namespace clatter;

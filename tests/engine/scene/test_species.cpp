@@ -11,7 +11,7 @@
 
 #include "engine/initial/mixture_state.h"
 #include "engine/initial/start_state.h"
-#include "engine/physics/quantile.h"
+#include "engine/physics/elementary.h"
 #include "engine/run/scheduled_run.h"
 #include "engine/scene/state_file.h"
 #include "tests/engine/scene/refusal.h"

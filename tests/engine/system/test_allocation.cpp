@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "engine/system/allocation.h"
-#include "engine/system/control_groups.h"
 #include "engine/system/platform.h"
 #include "tests/support/temporary_folder.h"
 

@@ -2,7 +2,7 @@
 
 #include "render/context/context.h"
 #include "render/typography/fonts.h"
-#include "render/typography/gui_picture.h"
+#include "render/typography/gui_layer.h"
 #include "tests/render/picture.h"
 
 namespace clatter {
