@@ -47,7 +47,12 @@ void print_allocation() {
 
 void print_way(const Scene& scene) {
   const auto particles = static_cast<std::size_t>(scene.particles.count);
-  if (!runs_in_tiles(scene.dimension(), particles, processors())) return;
+  const auto has_valve = [](const Partition& partition) {
+    return std::ranges::any_of(partition.holes,
+                               [](const Hole& hole) { return hole.valve.has_value(); });
+  };
+  const bool whole = scene.piston || std::ranges::any_of(scene.partitions, has_valve);
+  if (whole || !runs_in_tiles(scene.dimension(), particles, processors())) return;
   std::fputs(watched_runs_in_tiles(processors())
                  ? "Runs in tiles on several threads.\n"
                  : "Runs as a whole on fewer than 4 threads; only films of elastic gases without "

@@ -83,6 +83,14 @@ static Mixing mixing_in(const Snapshot& snapshot, std::size_t species) {
   return mixing_of(numbers, species);
 }
 
+// The share of the particles below a divider, which is where a piston is now.
+static double share_below(const Divider& divider, const Snapshot& snapshot) {
+  if (snapshot.count() == 0) return 0.0;
+  const double place = snapshot.free_piston.value_or(divider.position);
+  const auto below = (snapshot.positions.row(divider.axis).array() < place).count();
+  return static_cast<double>(below) / static_cast<double>(snapshot.count());
+}
+
 void History::predict(const std::shared_ptr<const Scene>& scene) {
   if (!scene || scene == scene_) return;
   scene_ = scene;
@@ -130,6 +138,10 @@ void History::add(const Frame& frame) {
   sample.deepest_overlap = frame.deepest_overlap;
   sample.species_temperature = species_.take();
   if (species > 0) sample.mixing = mixing_in(frame.snapshot, species);
+  if (const auto divider = divider_of(*frame.scene)) {
+    sample.piston = frame.snapshot.free_piston.value_or(0.0);
+    sample.share_left = share_below(*divider, frame.snapshot);
+  }
   samples_.push_back(sample);
   last_ = frame.tally;
   // A shorter average would resolve single collisions.
@@ -163,6 +175,8 @@ void History::thin_out() {
                        .ledger_residual = larger(&Sample::ledger_residual),
                        .deepest_overlap = larger(&Sample::deepest_overlap),
                        .species_temperature = b.species_temperature,
+                       .share_left = b.share_left,
+                       .piston = b.piston,
                        .mixing = b.mixing});
     for (std::size_t s = 0; s < b.species_temperature.size(); ++s) {
       const double before = a.species_temperature[s];

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -24,6 +25,9 @@ struct Sample {
   double ledger_residual = 0.0;                  ///< magnitude of Totals::ledger_residual()
   double deepest_overlap = 0.0;                  ///< see RunChecks
   std::vector<double> species_temperature = {};  ///< [S] T_s, NaN: no particles; empty: no mixture
+  /// Share of the particles below the divider of the scene at the end; NaN: there is none.
+  double share_left = std::numeric_limits<double>::quiet_NaN();
+  double piston = 0.0;  ///< place of a free piston at the end
   Mixing mixing = {};  ///< at the end, in cells of about ten particles; undefined without a mixture
 };
 
@@ -31,10 +35,11 @@ struct Sample {
 template <class Archive>
 void visit(Archive& io, Sample& sample) {
   auto& [time, temperature, spin_temperature, walls_in, bulk_in, nudges_in, gravity_in, dissipated,
-         ledger_residual, deepest_overlap, species_temperature, mixing] = sample;
+         ledger_residual, deepest_overlap, species_temperature, share_left, piston, mixing] =
+      sample;
   io(time, temperature, spin_temperature, walls_in, bulk_in, nudges_in, gravity_in, dissipated,
-     ledger_residual, deepest_overlap, species_temperature, mixing.lacey, mixing.entropy,
-     mixing.random_entropy);
+     ledger_residual, deepest_overlap, species_temperature, share_left, piston, mixing.lacey,
+     mixing.entropy, mixing.random_entropy);
 }
 
 /// Histogram of the velocities over the last seconds, with bins of equal width.

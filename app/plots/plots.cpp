@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "app/plots/divider_plots.h"
 #include "app/plots/plot_colours.h"
 #include "app/plots/species_plots.h"
 #include "app/results/theory_json.h"
@@ -256,6 +257,8 @@ std::vector<LivePlot> plots_of(const History& history, const Frame& frame, std::
     plots.push_back(profile_plot(*frame.profile, profiled, *frame.scene, theme));
   }
   if (frame.residuals) plots.push_back(balance_plot(*frame.residuals, dimension));
+  if (frame.scene->piston) plots.push_back(piston_plot(samples, *frame.scene, theme.text));
+  if (divider_of(*frame.scene)) plots.push_back(compartments_plot(samples, *frame.scene));
   plots.push_back(temperature_plot(samples, *frame.scene, theme.text));
   if (!frame.scene->species.empty()) {
     plots.push_back(species_temperature_plot(history, *frame.scene, theme));
@@ -386,6 +389,18 @@ static std::optional<LivePlot> plot_of_species(FilmPlot which, const PlottedGas&
                                    : species_temperature_plot(*gas.history, scene, theme);
 }
 
+static std::optional<LivePlot> plot_of_divider(FilmPlot which, const PlottedGas& gas,
+                                               const ThemeColours& theme) {
+  const std::vector<Sample>& samples = gas.history->samples();
+  const Scene& scene = *gas.frame->scene;
+  if (which == FilmPlot::Piston) {
+    if (!scene.piston) return std::nullopt;
+    return piston_plot(samples, scene, theme.text);
+  }
+  if (!divider_of(scene)) return std::nullopt;
+  return compartments_plot(samples, scene);
+}
+
 static LecturePlot kind_of(FilmPlot which) {
   switch (which) {
     case FilmPlot::Temperature:
@@ -396,6 +411,8 @@ static LecturePlot kind_of(FilmPlot which) {
       return LecturePlot::Velocities;
     case FilmPlot::SpeciesTemperature:
     case FilmPlot::Mixing:
+    case FilmPlot::Compartments:
+    case FilmPlot::Piston:
       break;
     case FilmPlot::DensityProfile:
     case FilmPlot::TemperatureProfile:
@@ -412,6 +429,10 @@ std::optional<LivePlot> film_plot(FilmPlot which, const std::vector<PlottedGas>&
   if (which == FilmPlot::SpeciesTemperature || which == FilmPlot::Mixing) {
     return joined_plot(gases,
                        [&](const PlottedGas& gas) { return plot_of_species(which, gas, theme); });
+  }
+  if (which == FilmPlot::Compartments || which == FilmPlot::Piston) {
+    return joined_plot(gases,
+                       [&](const PlottedGas& gas) { return plot_of_divider(which, gas, theme); });
   }
   const LecturePlot kind = kind_of(which);
   const auto first = static_cast<int>(FilmPlot::DensityProfile);

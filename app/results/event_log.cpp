@@ -179,9 +179,11 @@ void fill(const H5::H5File& file, const std::filesystem::path& records_path,
   if (!records) throw RunError("cannot read " + records_path.string());
   const H5::Group root = file.openGroup("/");
   write_text(root, "units", kUnits);
-  write_text(root, "kinds",
-             "0: particles; 1: left, 2: right, 3: bottom, 4: top, 5: back, 6: front wall; "
-             "7 and above: fixtures, the obstacles of the scene first");
+  write_text(
+      root, "kinds",
+      "0: particles; 1: left, 2: right, 3: bottom, 4: top, 5: back, 6: front wall; "
+      "7 and above: fixtures, the obstacles of the scene first; 7: the free piston of a scene "
+      "with one");
   std::vector<GrowingDataset> datasets;
   for (const EventQuantity& quantity : quantities) datasets.push_back(dataset_of(quantity, root));
   const std::size_t size = record_size(quantities);

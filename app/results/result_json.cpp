@@ -251,8 +251,6 @@ template Json result_json(const Scene&, std::uint64_t, const Simulation<2>&, con
 template Json result_json(const Scene&, std::uint64_t, const Simulation<3>&, const Measured&,
                           const Performance&);
 
-using Json = nlohmann::ordered_json;
-
 // Text between the brackets of an object or a list, one element per line.
 template <class Element>
 static std::string lines(const Json& json, std::size_t depth, const Element& element) {

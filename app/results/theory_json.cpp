@@ -10,6 +10,11 @@ namespace clatter {
 
 using Json = nlohmann::ordered_json;
 
+// Whether something stands in the box, for which the theories of a plain box do not hold.
+static bool is_divided(const Scene& scene) {
+  return scene.piston || scene.has_fixtures();
+}
+
 std::optional<VibratedGas> vibrated_gas(const Scene& scene) {
   const auto &left = scene.walls[kLeft], &right = scene.walls[kRight];
   const auto vibrates = [](const std::optional<Wall>& wall) {
@@ -19,8 +24,8 @@ std::optional<VibratedGas> vibrated_gas(const Scene& scene) {
                      left->drive_speed == right->drive_speed;
   const bool falls = scene.gravity && scene.gravity->norm() > 0.0;
   const bool open = scene.periodic(1) && (scene.dimension() == 2 || scene.periodic(2));
-  if (!alike || !open || scene.particles.count == 0 || scene.spins() || falls || scene.bulk_drive ||
-      !scene.species.empty()) {
+  if (!alike || !open || is_divided(scene) || scene.particles.count == 0 || scene.spins() ||
+      falls || scene.bulk_drive || !scene.species.empty()) {
     return std::nullopt;
   }
   return VibratedGas{static_cast<double>(scene.particles.count),
@@ -34,8 +39,8 @@ std::optional<VibratedGas> vibrated_gas(const Scene& scene) {
 
 std::optional<Atmosphere> atmosphere(const Scene& scene) {
   const Particles& particles = scene.particles;
-  if (!scene.gravity || particles.restitution != 1.0 || particles.count == 0 || scene.spins() ||
-      scene.bulk_drive || !scene.species.empty()) {
+  if (!scene.gravity || is_divided(scene) || particles.restitution != 1.0 || particles.count == 0 ||
+      scene.spins() || scene.bulk_drive || !scene.species.empty()) {
     return std::nullopt;
   }
   Eigen::Index axis = 0;
@@ -76,7 +81,8 @@ std::optional<TwoCompartments> two_compartments(const Scene& scene) {
   const double gravity = -scene.gravity->y(), width = 0.5 * scene.box.x();
   const bool falls = gravity > 0.0 && scene.gravity->x() == 0.0;
   const bool halves = wall.present && wall.axis == Axis::X && wall.position == width;
-  const bool open = wall.holes.size() == 1 && wall.holes[0].to[0] == scene.box.y();
+  const bool open =
+      wall.holes.size() == 1 && !wall.holes[0].valve && wall.holes[0].to[0] == scene.box.y();
   if (!falls || !halves || !open || !(floor.drive_speed > 0.0) || floor.restitution > 1.0) {
     return std::nullopt;
   }
@@ -113,7 +119,7 @@ static void add_vibrated(Json& json, const VibratedGas& gas, double start_temper
 static bool is_homogeneous_gas(const Scene& scene) {
   const bool walled =
       std::ranges::any_of(scene.walls, [](const auto& wall) { return wall.has_value(); });
-  return !walled && scene.particles.count > 1 && !scene.gravity;
+  return !walled && !is_divided(scene) && scene.particles.count > 1 && !scene.gravity;
 }
 
 bool cools_freely(const Scene& scene) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/error.h"
+#include "engine/scene/schedule.h"
 #include "engine/scene/scene_file.h"
 
 namespace clatter {
@@ -19,8 +20,10 @@ static std::string shown(const std::string& value) {
                   advice);
 }
 
-// Properties that a resumed run must keep: the box, the particles and the walled sides.
+// Properties that a resumed run must keep: the box, the particles, the body of the piston and the
+// walled sides.
 static bool is_fixed(const KeyDifference& difference) {
+  if (difference.key.starts_with("piston.")) return !may_change_live(difference.key);
   if (difference.key.starts_with("species.")) return !difference.key.ends_with(".colour");
   const bool wall_of_one = difference.before.empty() || difference.now.empty();
   return difference.key == "box.size" || difference.key == "particles.count" ||

@@ -75,7 +75,8 @@ void add_means(Json& row, const Replicas& replicas, const std::string& name,
     const std::vector<double> means = numbers_at(replicas, place / key / "mean");
     const std::vector<double> errors = numbers_at(replicas, place / key / "standard_error");
     if (!means.empty() && !errors.empty()) {
-      add_mean(row, path, means, errors);
+      // A setting may have the name of a mean, as piston.position has.
+      add_mean(row, row.contains(path) ? path + ".mean" : path, means, errors);
     } else {
       add_means(row, replicas, path, place / key);
     }

@@ -492,7 +492,7 @@ void Controls::set(const std::vector<Override>& before, const std::vector<Overri
                    const VecX& shift) {
   const View view = session_.view();
   const std::uint64_t views = session_.views();
-  session_.set(after, shift);
+  if (!session_.set(after, shift)) return;
   Edit edit{.before = before, .after = after, .shift = shift};
   if (session_.views() != views) edit.views = {{view, session_.view()}};
   session_.remember(std::move(edit));

@@ -77,6 +77,10 @@ void gas_panel(Session& session, Controls& controls) {
                scene.particles.restitution, session.opened().particles.restitution);
   roughness(session, controls);
   species_controls(session, controls);
+  if (controls.button("reverse", "Reverse velocities",
+                      "Changes the signs of all velocities and spins. An elastic gas runs back")) {
+    session.reverse();
+  }
 }
 
 }  // namespace clatter

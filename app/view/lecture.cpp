@@ -230,7 +230,7 @@ float LectureMode::bar() {
     timeline_ = !timeline_;
   }
   for (const ToolText& tool : kTools) {
-    if (!bar_has_tools()) break;
+    if (!bar_has_tools() || draws_fixtures(tool.tool)) break;
     if (button(tool.key, tool.name, tool.help, mouse_tools_.tool() == tool.tool)) {
       toggle_tool(tool.tool);
     }

@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "app/plots/plot_colours.h"
+#include "app/view/fixture_edits.h"
 #include "app/view/style.h"
+#include "engine/scene/scene_file.h"
 #include "render/picking.h"
 #include "render/typography/fonts.h"
 
@@ -19,7 +21,7 @@ namespace {
 constexpr double kLeastRadius = 0.5;
 
 bool has_circle(Tool tool) {
-  return tool != Tool::Throw;
+  return tool != Tool::Throw && !draws_fixtures(tool);
 }
 
 bool has_arrow(Tool tool) {
@@ -37,6 +39,10 @@ Colour colour_of(Tool tool) {
       return accent_colour();
     case Tool::Add:
       return kGreen;
+    case Tool::Ball:
+    case Tool::Wall:
+    case Tool::Erase:
+      return kOrange;
   }
   return {};
 }
@@ -100,6 +106,7 @@ bool MouseTools::panel(const Scene& scene, Controls& controls) {
   bool chosen = false;
   std::size_t column = 0;
   for (const ToolText& tool : kTools) {
+    if (draws_fixtures(tool.tool) && scene.dimension() == 3) continue;
     if (!controls.shows(tool.key)) continue;
     if (column++ % (in_row ? kTools.size() : kColumns) > 0) ImGui::SameLine();
     const float width = in_row ? ImGui::CalcTextSize(tool.name).x + around
@@ -165,7 +172,7 @@ std::optional<MouseTools::Target> MouseTools::target_at(const Session& session,
   const Snapshot& gas = session.frame().snapshot;
   const std::optional<Slab>& slab = session.view().slab;
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  if (has_circle(tool)) return Target{place_in_box(gas, map, mouse, slab)};
+  if (tool != Tool::Throw) return Target{place_in_box(gas, map, mouse, slab)};
   const auto particle = particle_near(gas, map, mouse, slab);
   if (!particle) return std::nullopt;
   return Target{position_of(gas, *particle), particle};
@@ -177,6 +184,7 @@ void MouseTools::use(Session& session, const WindowMap& map, bool over) {
   if (!press_) {
     target_.reset();
     if (!tool_ || !over) return;
+    if (draws_fixtures(*tool_) && session.scene().dimension() == 3) return;
     target_ = target_at(session, map, *tool_);
     if (!target_ || !ImGui::IsMouseClicked(0)) return;
     press_ = Press{*tool_, frame.run, ImGui::GetIO().MousePos};
@@ -240,6 +248,7 @@ void MouseTools::add(Session& session) {
 
 void MouseTools::release(Session& session, const WindowMap& map) {
   Press press = *std::exchange(press_, std::nullopt);
+  if (draws_fixtures(press.tool)) return edit_fixtures(session, map, press);
   if (has_arrow(press.tool)) {
     if (!press.dragged) return session.report("Drag an arrow: direction and size of the velocity");
     const VecX arrow = velocity(session.frame(), map);
@@ -251,6 +260,25 @@ void MouseTools::release(Session& session, const WindowMap& map) {
     session.nudge(nudge);
   }
   session.remember({.acts = std::move(press.acts)});
+}
+
+void MouseTools::edit_fixtures(Session& session, const WindowMap& map, const Press& press) {
+  const Scene& scene = session.scene();
+  const Vec2 from = target_->place;
+  const Vec2 to = place_in_box(session.frame().snapshot, map, ImGui::GetIO().MousePos, {});
+  std::optional<Scene> edited;
+  if (press.tool == Tool::Erase) {
+    edited = without_fixture_at(scene, to);
+    if (!edited) return session.report("There is no obstacle or partition");
+  } else {
+    if (!press.dragged) {
+      return session.report(press.tool == Tool::Ball ? "Drag from the centre of a ball to its rim"
+                                                     : "Drag along the wall");
+    }
+    edited = press.tool == Tool::Ball ? with_ball(scene, from, to) : with_wall(scene, from, to);
+  }
+  const std::vector<Override> before = fixture_settings(scene), after = fixture_settings(*edited);
+  if (session.set(after)) session.remember({.before = before, .after = after});
 }
 
 // The velocity whose distance in one second of playing is the length of the arrow, with few digits
@@ -269,6 +297,17 @@ void MouseTools::mark(ImDrawList& list, const Frame& frame, const WindowMap& map
   if (!target_ || target_->place.size() != frame.snapshot.box.size()) return;
   const Tool tool = press_ ? press_->tool : *tool_;
   const ImU32 ink = packed(colour_of(tool));
+  if (draws_fixtures(tool)) {
+    const auto from = map.place(target_->place);
+    const ImVec2 to = ImGui::GetIO().MousePos;
+    if (!press_ || !from || tool == Tool::Erase) return;
+    if (tool == Tool::Ball) {
+      list.AddCircle(*from, std::hypot(to.x - from->x, to.y - from->y), ink, 0, 2.5f);
+    } else {
+      list.AddLine(*from, to, ink, 2.5f);
+    }
+    return;
+  }
   const Snapshot& gas = frame.snapshot;
   const bool known = target_->particle && *target_->particle < gas.count();
   const double of_particle = known ? gas.radius(*target_->particle) : 0.5 * gas.diameter;

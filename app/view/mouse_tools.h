@@ -13,7 +13,7 @@
 namespace clatter {
 
 /// The action of the left button on the gas.
-enum class Tool { Heat, Cool, Kick, Throw, Add };
+enum class Tool { Heat, Cool, Kick, Throw, Add, Ball, Wall, Erase };
 
 /// Texts of a tool.
 struct ToolText {
@@ -24,8 +24,8 @@ struct ToolText {
   const char* hint;  ///< line on the picture before the first press
 };
 
-/// All tools, in the order of their buttons and of the keys 1 to 5.
-inline constexpr std::array<ToolText, 5> kTools = {{
+/// All tools, in the order of their buttons and of the keys 1 to 8.
+inline constexpr std::array<ToolText, 8> kTools = {{
     {Tool::Heat, "tool.heat", "Heat",
      "Speeds in a circle at the mouse grow by a tenth, every 0.1 s while the button is held (1)",
      "press and hold to heat  ·  Esc ends"},
@@ -46,11 +46,29 @@ inline constexpr std::array<ToolText, 5> kTools = {{
      "A click adds particles of the present temperature in a circle at the mouse, as many as find "
      "room (5)",
      "click to add particles  ·  Esc ends"},
+    {Tool::Ball, "tool.ball", "Ball",
+     "A dragged circle is an obstacle, from its centre to its rim. A drag of one moves it, and a "
+     "drag of its rim resizes it. The gas starts again around it (6)",
+     "drag a ball from its centre  ·  Esc ends"},
+    {Tool::Wall, "tool.wall", "Wall",
+     "A dragged line is a partition. A drag along one cuts a hole, and a drag away from it moves "
+     "it. "
+     "The gas starts again around it (7)",
+     "drag a wall  ·  Esc ends"},
+    {Tool::Erase, "tool.erase", "Erase",
+     "A click removes an obstacle or a partition. The gas starts again (8)",
+     "click on an obstacle or a partition  ·  Esc ends"},
 }};
+
+/// Whether a tool changes the fixtures of disks, not the gas.
+constexpr bool draws_fixtures(Tool tool) {
+  return tool >= Tool::Ball;
+}
 
 /// Tools that act on the gas at the mouse. Each action is a nudge or a puff, which the run records
 /// as a [[change]]. Heat and Cool scale velocities in a circle, of spheres in a ball. Kick adds a
 /// velocity there, and Throw sets the velocity of one particle. Add makes a puff of new particles.
+/// Ball, Wall and Erase change the fixtures of disks, and start the gas again with its particles.
 /// A press is one undo entry.
 class MouseTools {
  public:
@@ -98,6 +116,7 @@ class MouseTools {
   std::string species_of(const Scene& scene) const;
   void add(Session& session);
   void release(Session& session, const WindowMap& map);
+  void edit_fixtures(Session& session, const WindowMap& map, const Press& press);
   VecX velocity(const Frame& frame, const WindowMap& map) const;
   void draw_arrow(ImDrawList& list, const Frame& frame, const WindowMap& map, ImU32 ink) const;
 

@@ -10,6 +10,7 @@ bool gas_panels(Session& session, Controls& controls, MouseTools& tools,
   compare_panel(session, controls, titles);
   const bool takes_tool = tools.panel(session.scene(), controls);
   box_panel(session, controls);
+  fixture_panel(session, controls);
   view_panel(session, controls);
   accuracy_panel(session, controls);
   return takes_tool;

@@ -26,6 +26,8 @@ void species_controls(Session& session, Controls& controls);
 void compare_panel(Session& session, Controls& controls, const std::vector<std::string>& titles);
 /// Dimension, box, walls, gravity and bulk drive.
 void box_panel(Session& session, Controls& controls);
+/// The free piston, and the obstacles and partitions; nothing without any.
+void fixture_panel(Session& session, Controls& controls);
 /// Colours, heatmap, arrows and other layers of the picture.
 void view_panel(Session& session, Controls& controls);
 /// Settings that trade accuracy for speed, with their cost.

@@ -366,13 +366,13 @@ void Session::change_speed(bool faster) {
   set_speed(decade * (faster ? *above : *std::prev(above)));
 }
 
-void Session::set(const std::vector<Override>& settings, const VecX& shift) {
+bool Session::set(const std::vector<Override>& settings, const VecX& shift) {
   try {
     selected().scene = with_settings(scene(), settings);
     wishes_ = unsaved_ = true;
   } catch (const UserError& error) {
     report(error.problem() + "; " + error.advice());
-    return;
+    return false;
   }
   View view = view_;
   if (!scene().spins() && view.hide_spins()) set_view(view);
@@ -386,6 +386,7 @@ void Session::set(const std::vector<Override>& settings, const VecX& shift) {
   } else {
     refit(shift);
   }
+  return true;
 }
 
 // A change in the past begins another future.
@@ -430,6 +431,14 @@ void Session::add(const Puff& puff) {
                       {"species", puff.species},
                       {"command", sent_ + 1}});
   send(command::AddPuff{puff});
+}
+
+void Session::reverse() {
+  unsaved_ = true;
+  note_fork();
+  log_.event("reverse", {{"command", sent_ + 1}});
+  send(command::Reverse{});
+  remember({.acts = {{.reverse = true}}});
 }
 
 void Session::move_piston(double position, double duration) {

@@ -121,7 +121,9 @@ class Session {
   /// Sets keys. Laws change in the running simulation. Other keys restart it from the current
   /// particles, moved by `shift`, without those that no longer fit. An invalid setting becomes a
   /// message. If no particle spins afterwards, the view shows no spins.
-  void set(const std::vector<Override>& settings, const VecX& shift = {});
+  bool set(const std::vector<Override>& settings, const VecX& shift = {});
+  /// Changes the signs of all velocities and spins.
+  void reverse();
   /// Nudges particles of the running or halted gas. An impossible nudge becomes a message.
   void nudge(const Nudge& nudge);
   /// Adds the particles of a puff to the running or halted gas. An impossible puff becomes a

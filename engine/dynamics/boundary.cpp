@@ -76,6 +76,12 @@ double Boundary<D>::touching_place(int side, double radius, double time) const {
          inward(side) * wall(side, time).displacement;
 }
 
+template <int D>
+double Boundary<D>::contact_time(int side, const Flight<D>& flight, double radius,
+                                 double now) const {
+  return contact_time(side, flight, radius, model_.gravity, now);
+}
+
 // The piston's rest position moves until the end of its stroke, and rests from there on. A flight
 // that began before the stroke has no contact before it, because such a contact would have ended
 // the flight.

@@ -62,9 +62,7 @@ class Boundary {
   double touching_place(int side, double radius, double time) const;
   /// Time, not before `now`, at which a particle of some radius touches a wall; kNever without a
   /// contact.
-  double contact_time(int side, const Flight<D>& flight, double radius, double now) const {
-    return contact_time(side, flight, radius, model_.gravity, now);
-  }
+  double contact_time(int side, const Flight<D>& flight, double radius, double now) const;
   /// The same of a body whose flight has another acceleration.
   double contact_time(int side, const Flight<D>& flight, double radius, const Vec<D>& acceleration,
                       double now) const;

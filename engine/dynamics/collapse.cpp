@@ -17,11 +17,16 @@ static std::string rounded(double number) {
 
 template <int D>
 static const Fixture<D>& fixture_of(const Model<D>& model, std::uint32_t piece) {
-  std::size_t number = 0;
-  for (; piece >= model.fixtures[number].pieces.size(); ++number) {
-    piece -= static_cast<std::uint32_t>(model.fixtures[number].pieces.size());
+  for (const Fixture<D>& fixture : model.fixtures) {
+    const auto count = static_cast<std::uint32_t>(fixture.pieces.size());
+    if (piece < count) return fixture;
+    piece -= count;
   }
-  return model.fixtures[number];
+  const Fixture<D>* owner = &model.fixtures.front();  // of a valve, which come last
+  for (; piece >= owner->valves.size(); ++owner) {
+    piece -= static_cast<std::uint32_t>(owner->valves.size());
+  }
+  return *owner;
 }
 
 template <int D>

@@ -91,7 +91,7 @@ void EventLoop<D>::restart(RunState<D>&& saved) {
   piston_.reset();
   if (model_.free_piston && saved.free_piston) {
     piston_.emplace(*saved.free_piston, model_, boundary_, gas_.particles, grains_, near_);
-    set_piston_laws(false);
+    set_piston_laws(false, false);
   }
   until_base_moves_ = saved.until_base_moves;
   counts_ = saved.counts;
@@ -126,7 +126,7 @@ void EventLoop<D>::set_laws(bool keeps_flights, const Vec<D>& gravity, double st
   begin_watch(start_speed, watchdog_ ? watchdog_->mean_collision_time() : 0.0, std::nullopt);
   set_alike();
   prediction_.set_laws();
-  if (piston_) set_piston_laws(true);
+  if (piston_) set_piston_laws(true, keeps_flights);
   if (keeps_flights) return;
   near_.set_fixtures(model_);
   for (std::size_t i = 0; i < gas_.particles.size(); ++i) {
@@ -499,6 +499,13 @@ double EventLoop<D>::deepest_overlap_with(const Boundary<D>& boundary) const {
   for (std::uint32_t i = 0; i < gas_.particles.size(); ++i) {
     const Vec<D> place = gas_.particles[i].flight.at(now_, model_.gravity);
     deepest = std::max(deepest, overlap_with_walls(boundary, i, place));
+  }
+  if (!piston_) return deepest;
+  const FreePiston& law = *model_.free_piston;
+  for (const int side : {2 * law.axis, 2 * law.axis + 1}) {
+    const double touching = boundary.touching_place(side, 0.5 * law.thickness, now_);
+    const double beyond = Boundary<D>::inward(side) * (touching - piston_->flight().at(now_));
+    deepest = std::max(deepest, beyond / model_.diameter);
   }
   return deepest;
 }

@@ -198,9 +198,8 @@ class EventLoop {
     int side;               // the Side; WallCollision::kNoSide for a fixture or the piston
     std::uint32_t fixture;  // number in the model, without a side
     Vec<D> normal;          // towards the particle
-    const Wall& law;
-    WallState motion;
-    Vec<D> point;  // of a fixture that is touched, at its place in the scene
+    Vec<D> point;           // of a fixture that is touched, at its place in the scene
+    bool at_centre = false;  // see WallCollision
   };
 
   void process(Event event);
@@ -213,16 +212,19 @@ class EventLoop {
   void hit_wall(std::uint32_t number, int side);
   void hit_fixture(std::uint32_t number, std::uint32_t piece, const IntVec<D>& image);
   [[gnu::always_inline]] inline void bounce(std::uint32_t number, const Motion& at,
-                                            const Surface& surface);
+                                            const Surface& surface, const Wall& law,
+                                            const WallState& motion);
   [[gnu::always_inline]] inline Arrival<D> arrival_of(std::uint32_t number, const Vec<D>& velocity);
   [[gnu::always_inline]] inline void depart(std::uint32_t number, const Motion& at,
                                             const Surface& surface, const Departure<D>& departure,
                                             bool elastic);
   Halt process_piston();
+  void meet_valve(std::uint32_t number, const Motion& at, const Vec<D>& place,
+                  const typename PieceLists<D>::Owned& opening);
   void hit_piston(std::uint32_t number);
   void fly_piston(PistonChange::Cause cause, double place, double velocity);
   void gather_piston();
-  void set_piston_laws(bool report);
+  void set_piston_laws(bool report, bool gather);
   bool within_contact_time(std::uint32_t number) const;
   bool is_too_fast(std::uint32_t number) const;
   [[gnu::always_inline]] inline bool is_fast(double velocity) const;

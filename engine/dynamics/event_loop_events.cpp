@@ -206,11 +206,11 @@ Arrival<D> EventLoop<D>::arrival_of(std::uint32_t number, const Vec<D>& velocity
 
 // Reflects or emits a particle that touches a surface.
 template <int D>
-void EventLoop<D>::bounce(std::uint32_t number, const Motion& at, const Surface& surface) {
-  const bool elastic = within_contact_time(number) && surface.law.kind != WallKind::Thermal;
+void EventLoop<D>::bounce(std::uint32_t number, const Motion& at, const Surface& surface,
+                          const Wall& law, const WallState& motion) {
+  const bool elastic = within_contact_time(number) && law.kind != WallKind::Thermal;
   depart(number, at, surface,
-         wall_outcome<D>(model_, surface.law, surface.normal, surface.motion,
-                         arrival_of(number, at.v), elastic),
+         wall_outcome<D>(model_, law, surface.normal, motion, arrival_of(number, at.v), elastic),
          elastic);
 }
 
@@ -227,7 +227,8 @@ void EventLoop<D>::depart(std::uint32_t number, const Motion& at, const Surface&
                                                spin(number), Impulse<D>{gain, spin_gain}),
                                      surface.normal,
                                      surface.fixture,
-                                     surface.point};
+                                     surface.point,
+                                     surface.at_centre};
     for (Observer<D>* observer : observers_) observer->on_wall(collision);
   }
   --until_base_moves_;
@@ -260,28 +261,50 @@ void EventLoop<D>::hit_wall(std::uint32_t number, int side) {
     at.r[axis] = place;
     if (!gas_.remainders.empty()) gas_.remainders[number][axis] = 0.0;
   }
-  bounce(number, at,
-         {side, 0, Boundary<D>::normal(side), model_.wall(side, grain(number).species),
-          boundary_.wall(side, now_), Vec<D>::Zero()});
+  bounce(number, at, {side, 0, Boundary<D>::normal(side), Vec<D>::Zero()},
+         model_.wall(side, grain(number).species), boundary_.wall(side, now_));
 }
 
 // The position is set to that of contact, as at a fixed wall.
 template <int D>
 void EventLoop<D>::hit_fixture(std::uint32_t number, std::uint32_t piece, const IntVec<D>& image) {
-  const auto& [touched, fixture] = near_.piece(piece);
+  const auto& [touched, fixture, valve] = near_.piece(piece);
   Motion at = motion_now(number);
   const Vec<D> place = at.r + model_.domain().shift(image.template cast<double>());
+  if (valve != PieceLists<D>::kNoValve) return meet_valve(number, at, place, near_.piece(piece));
   const Vec<D> normal = touched.normal_at(place);
   const double beyond = grain(number).radius - touched.distance(place);
   checks_.deepest_overlap = std::max(checks_.deepest_overlap, beyond / model_.diameter);
   at.r += beyond * normal;
   bounce(number, at,
-         {WallCollision<D>::kNoSide,
-          fixture,
-          normal,
-          model_.fixtures[fixture].law_for(grain(number).species),
-          {},
-          place - (grain(number).radius - beyond) * normal});
+         {WallCollision<D>::kNoSide, fixture, normal,
+          place - (grain(number).radius - beyond) * normal},
+         model_.fixtures[fixture].law_for(grain(number).species), {});
+}
+
+// The centre of the particle is put on the plane of the valve, so that the next flight begins
+// there.
+template <int D>
+void EventLoop<D>::meet_valve(std::uint32_t number, const Motion& at, const Vec<D>& place,
+                              const typename PieceLists<D>::Owned& opening) {
+  const Fixture<D>& fixture = model_.fixtures[opening.fixture];
+  const int axis = fixture.plane->axis;
+  const int side = at.v[axis] > 0.0 ? -1 : 1;
+  Motion there = at;
+  there.r[axis] += opening.piece.corner[axis] - place[axis];
+  if (fixture.valves[opening.valve].passes(side, at.v.norm())) {
+    const Kick<D> passage{
+        now_, change_of(gas_, number, grain(number), there.r, at.v, spin(number), Impulse<D>{}),
+        KickCause::Passage};
+    for (Observer<D>* observer : observers_) observer->on_kick(passage);
+    renew_flight(number, there.r, at.v);
+    ++counts_.cell_crossings;
+    return;
+  }
+  const Vec<D> normal = side * Vec<D>::Unit(axis);
+  const Vec<D> velocity = at.v - 2.0 * at.v[axis] * Vec<D>::Unit(axis);
+  depart(number, there, {WallCollision<D>::kNoSide, opening.fixture, normal, place, true},
+         {velocity, spin(number)}, false);
 }
 
 // The position is set to that of contact, as at a fixed wall.
@@ -303,12 +326,7 @@ void EventLoop<D>::hit_piston(std::uint32_t number) {
   const PistonOutcome<D> outcome =
       piston_outcome<D>(model_, side, velocity, arrival_of(number, at.v), elastic);
   depart(number, at,
-         {WallCollision<D>::kNoSide,
-          WallCollision<D>::kOfPiston,
-          normal,
-          piston.law_for(grain(number).species),
-          {},
-          at.r - radius * normal},
+         {WallCollision<D>::kNoSide, WallCollision<D>::kOfPiston, normal, at.r - radius * normal},
          outcome.departure, elastic);
   if (piston.pinned) return;
   fly_piston(PistonChange::Cause::Particle, place, velocity - outcome.momentum / piston.mass);
@@ -357,7 +375,7 @@ typename EventLoop<D>::Halt EventLoop<D>::process_piston() {
 
 // Takes the changed laws of the piston. A pinned piston loses its velocity.
 template <int D>
-void EventLoop<D>::set_piston_laws(bool report) {
+void EventLoop<D>::set_piston_laws(bool report, bool gather) {
   const FreePiston& law = *model_.free_piston;
   const PistonFlight& before = piston_->flight();
   const double velocity = law.pinned ? 0.0 : before.velocity_at(now_);
@@ -371,7 +389,7 @@ void EventLoop<D>::set_piston_laws(bool report) {
     }
     piston_->set_flight(after);
   }
-  if (report) gather_piston();
+  if (gather) gather_piston();
 }
 
 // The total momentum stays: every particle loses the same velocity.
@@ -509,14 +527,18 @@ template void EventLoop<2>::hit_fixture(std::uint32_t, std::uint32_t, const IntV
 template void EventLoop<3>::hit_fixture(std::uint32_t, std::uint32_t, const IntVec<3>&);
 template EventLoop<2>::Halt EventLoop<2>::process_piston();
 template EventLoop<3>::Halt EventLoop<3>::process_piston();
+template void EventLoop<2>::meet_valve(std::uint32_t, const Motion&, const Vec2&,
+                                       const PieceLists<2>::Owned&);
+template void EventLoop<3>::meet_valve(std::uint32_t, const Motion&, const Vec<3>&,
+                                       const PieceLists<3>::Owned&);
 template void EventLoop<2>::hit_piston(std::uint32_t);
 template void EventLoop<3>::hit_piston(std::uint32_t);
 template void EventLoop<2>::fly_piston(PistonChange::Cause, double, double);
 template void EventLoop<3>::fly_piston(PistonChange::Cause, double, double);
 template void EventLoop<2>::gather_piston();
 template void EventLoop<3>::gather_piston();
-template void EventLoop<2>::set_piston_laws(bool);
-template void EventLoop<3>::set_piston_laws(bool);
+template void EventLoop<2>::set_piston_laws(bool, bool);
+template void EventLoop<3>::set_piston_laws(bool, bool);
 template void EventLoop<2>::reverse();
 template void EventLoop<3>::reverse();
 template void EventLoop<2>::begin_stroke();

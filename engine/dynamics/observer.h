@@ -46,8 +46,8 @@ struct PairCollision {
 /// A collision of a particle with a wall of the box, a fixture or the free piston.
 template <int D>
 struct WallCollision {
-  static constexpr int kNoSide = -1;
-  static constexpr std::uint32_t kOfPiston = 0xffffffffu;
+  static constexpr int kNoSide = -1;                       ///< in place of a Side: no wall
+  static constexpr std::uint32_t kOfPiston = 0xffffffffu;  ///< in place of a fixture: the piston
 
   double time = 0.0;  ///< on the moving base
   int side = 0;       ///< the Side; kNoSide for a fixture or the piston
@@ -56,27 +56,36 @@ struct WallCollision {
   std::uint32_t fixture = 0;       ///< number of the fixture in the model, or kOfPiston
   Vec<D> point = Vec<D>::Zero();   ///< of a fixture that is touched, at its place in the scene
 
+  bool at_centre = false;  ///< whether the centre is at the contact, as in a valve
+
   /// Whether it is with a wall of the box.
   bool at_wall() const { return side != kNoSide; }
   /// Whether it is with the free piston.
   bool at_piston() const { return !at_wall() && fixture == kOfPiston; }
-  /// From the point that touches to the centre of the particle.
-  Vec<D> branch() const { return particle.grain.radius * normal; }
+  /// From the point of contact to the centre of the particle.
+  Vec<D> branch() const {
+    return at_centre ? Vec<D>(Vec<D>::Zero()) : Vec<D>(particle.grain.radius * normal);
+  }
 };
 
 /// A new flight of the free piston: after a hit, at a wall, or because its laws change or all
 /// velocities are reversed.
 struct PistonChange {
+  /// Why the flight before has ended.
   enum class Cause { Particle, Wall, Laws };
 
-  double time = 0.0;  ///< on the moving base
-  Cause cause = Cause::Particle;
-  PistonFlight before;  ///< flight that ends here
-  PistonFlight after;
+  double time = 0.0;              ///< on the moving base
+  Cause cause = Cause::Particle;  ///< of the change
+  PistonFlight before;            ///< flight that ends here
+  PistonFlight after;             ///< flight that begins here
 };
 
 /// Cause of a kick. A puff is a nudge of the particles that enter. A reversal is a nudge of all.
-enum class KickCause { BulkDrive, Nudge };
+enum class KickCause {
+  BulkDrive,
+  Nudge,
+  Passage,  ///< a new flight without any change, because the particle has passed a valve
+};
 
 /// A kick of one particle: a sudden change of its motion without a partner. Bulk driving kicks all
 /// particles at the same time, and a nudge kicks some; each kick is reported in turn.

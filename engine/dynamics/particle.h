@@ -85,7 +85,7 @@ class ParticleArray {
       far_images_[number] = image;
   }
   /// Adds whole box lengths to an image.
-  void move_image(std::uint32_t number, const Vec<D>& boxes) {
+  [[gnu::always_inline]] void move_image(std::uint32_t number, const Vec<D>& boxes) {
     if ((boxes.array() != 0.0).any()) set_image(number, image(number) + boxes);
   }
 

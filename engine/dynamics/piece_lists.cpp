@@ -17,6 +17,12 @@ PieceLists<D>::PieceLists(const Model<D>& model)
       pieces_.push_back({piece, fixture});
     }
   }
+  for (std::uint32_t fixture = 0; fixture < model.fixtures.size(); ++fixture) {
+    const std::vector<Valve<D>>& valves = model.fixtures[fixture].valves;
+    for (std::uint32_t k = 0; k < valves.size(); ++k) {
+      pieces_.push_back({valves[k].opening, fixture, k});
+    }
+  }
 }
 
 // Whether a cell comes within a distance of the line or plane of a plate.

@@ -14,10 +14,14 @@ namespace clatter {
 template <int D>
 class PieceLists {
  public:
+  /// In place of the number of a valve: the piece is none.
+  static constexpr std::uint32_t kNoValve = 0xffffffffu;
+
   /// A piece, and the number of its fixture in the model.
   struct Owned {
     Piece<D> piece;
     std::uint32_t fixture;
+    std::uint32_t valve = kNoValve;  ///< whose opening it is, by its number in the fixture
   };
   /// A piece on the list of a cell, in a periodic image, as box lengths.
   struct Entry {

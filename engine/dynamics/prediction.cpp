@@ -293,14 +293,18 @@ void Prediction<D>::look_at_walls(std::uint32_t particle, double now, Plan<D>& p
 template <int D>
 void Prediction<D>::look_at_fixtures(std::uint32_t particle, Plan<D>& plan) const {
   for (const auto& [number, image] : near_.pieces_near(plan.cell)) {
-    const auto& [piece, fixture] = near_.piece(number);
+    const auto& [piece, fixture, valve] = near_.piece(number);
     const bool passes =
         !grains_.empty() && model_.fixtures[fixture].lets_pass(grains_[particle].species);
     if (passes) continue;
     const Vec<D> from = particles_.image(particle) + image.template cast<double>();
-    offer(piece_contact_time<D>(piece, particles_[particle].flight, model_.domain().shift(-from),
-                                radius_of(particle), model_.gravity),
-          particle, kPiece + number, -from.template cast<int>(), plan);
+    const Flight<D>& flight = particles_[particle].flight;
+    const Vec<D> shift = model_.domain().shift(-from);
+    const double time =
+        valve == PieceLists<D>::kNoValve
+            ? piece_contact_time<D>(piece, flight, shift, radius_of(particle), model_.gravity)
+            : crossing_time<D>(piece, flight, shift, model_.gravity);
+    offer(time, particle, kPiece + number, -from.template cast<int>(), plan);
   }
 }
 

@@ -124,7 +124,7 @@ class Prediction {
   void offer_particle(std::uint32_t particle, const Candidates<D>& near, int i, double time,
                       Plan<D>& plan) const;
   void look_at_walls(std::uint32_t particle, double now, Plan<D>& plan) const;
-  void look_at_fixtures(std::uint32_t particle, Plan<D>& plan) const;
+  [[gnu::noinline]] void look_at_fixtures(std::uint32_t particle, Plan<D>& plan) const;
   void offer(double time, std::uint32_t particle, std::uint32_t partner, const IntVec<D>& image,
              Plan<D>& plan) const;
 

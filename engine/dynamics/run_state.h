@@ -30,7 +30,8 @@ struct EventCounts {
   std::uint64_t law_changes = 0;       ///< of the scene's changes that are no acts; steps of ramps
   std::uint64_t elasticised = 0;       ///< pair collisions that the TC model made elastic
   std::uint64_t elasticised_wall = 0;  ///< collisions with walls that the TC model made elastic
-  /// Exits of particles from their cells or, with NeighbourLists, from their regions.
+  /// Exits of particles from their cells or, with NeighbourLists, from their regions; passages of
+  /// valves; and hits of the free piston on walls, and its moves to another zone.
   std::uint64_t cell_crossings = 0;
   std::uint64_t stale = 0;  ///< predictions whose partner collided with another particle before
 

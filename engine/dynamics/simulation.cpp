@@ -65,6 +65,15 @@ void Simulation<D>::set_kicks() {
   kicks_since_origin_ = 0;
 }
 
+// Whether tiles can run a gas. Each hit of a free piston changes the contacts of particles far
+// apart, and particles that pass a valve have new flights without a collision.
+template <int D>
+static bool suits_tiles(const Model<D>& model) {
+  return !model.free_piston && std::ranges::all_of(model.fixtures, [](const Fixture<D>& fixture) {
+    return fixture.valves.empty();
+  });
+}
+
 template <int D>
 void Simulation<D>::set_laws(const Model<D>& model) {
   prepare({});
@@ -88,6 +97,7 @@ void Simulation<D>::set_laws(const Model<D>& model) {
   set_kicks();
   loop_.set_laws(goes_on, present.gravity, start_speed_);
   look_anew();
+  if (!suits_tiles(model_)) foresight_.reset();
   if (in_tiles_) {
     way_is_open_ = true;  // events that tiles have found had the former laws
   } else if (!goes_on) {
@@ -188,10 +198,12 @@ void Simulation<D>::use_threads(int threads, const TileSizes& sizes) {
 // The way is chosen at the next event.
 template <int D>
 void Simulation<D>::make_tiles() {
-  foresight_ = std::make_unique<Foresight<D>>(model_, boundary_, loop_.grains(), particles().size(),
-                                              threads_, tile_sizes_);
-  // Each hit of a free piston changes the contacts of particles far apart.
-  if (model_.free_piston || foresight_->tiles() < 2) foresight_.reset();
+  foresight_.reset();
+  if (suits_tiles(model_)) {
+    foresight_ = std::make_unique<Foresight<D>>(model_, boundary_, loop_.grains(),
+                                                particles().size(), threads_, tile_sizes_);
+    if (foresight_->tiles() < 2) foresight_.reset();
+  }
   until_tried_ = 0;
   way_is_open_ = foresight_ || in_tiles_;
 }

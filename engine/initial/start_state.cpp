@@ -23,6 +23,7 @@
 #include "engine/physics/random.h"
 #include "engine/physics/theory.h"
 #include "engine/system/platform.h"
+#include "engine/text.h"
 
 namespace clatter {
 
@@ -449,7 +450,9 @@ class StartWork : public StartMaker::Work {
  private:
   bool is_from_file() const { return scene_.particles.start.layout == Layout::File; }
 
-  // The two sides of a divider are rooms of their own.
+  // The two sides of a divider are rooms of their own. The upper one has other random numbers than
+  // the lower one of any seed in use.
+  static constexpr std::uint64_t kOtherSide = 0x9e3779b97f4a7c15u;
   void place_beside(const Divider& divider) {
     const int axis = divider.axis;
     const std::size_t kinds = std::max<std::size_t>(scene_.species.size(), 1);
@@ -462,6 +465,12 @@ class StartWork : public StartMaker::Work {
       grains[is_below ? 0 : 1].push_back(grains_[i]);
     }
     const Vec<D> low = scene_.clear_corner(), high = low + Vec<D>(scene_.clear_box());
+    const double half = 0.5 * divider.thickness;
+    if (divider.position - half < low[axis] || divider.position + half > high[axis]) {
+      throw UserError({}, "the motion of a wall would reach the piston or partition at the start",
+                      "place it between " + number_text(low[axis] + half) + " and " +
+                          number_text(high[axis] - half));
+    }
     for (const int side : {0, 1}) {
       Room<D> room = scene_.start_room<D>();
       Vec<D> corner = low;
@@ -483,7 +492,7 @@ class StartWork : public StartMaker::Work {
       if (count == 0) continue;
       parts_.emplace_back(room, corner, count, grains[side], scene_.particles.start.layout,
                           start_fixtures<D>(scene_, corner),
-                          seed_ + static_cast<std::uint64_t>(side), stop_);
+                          seed_ ^ kOtherSide * static_cast<std::uint64_t>(side), stop_);
       sides_.push_back(side);
     }
   }

@@ -15,7 +15,7 @@ struct Domain {
   std::array<bool, D> periodic{};  ///< by axis; false: two walls
 
   /// The image that contains a position.
-  Vec<D> image_at(const Vec<D>& position) const {
+  [[gnu::always_inline]] Vec<D> image_at(const Vec<D>& position) const {
     Vec<D> image = Vec<D>::Zero();
     for (int axis = 0; axis < D; ++axis) {
       const bool inside = position[axis] >= 0.0 && position[axis] < box[axis];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -19,6 +20,22 @@ struct AxisPlane {
   double position = 0.0;
 };
 
+/// An opening that particles pass by their speed and side. It acts when their centres reach its
+/// plane: it lets them pass unchanged, or reflects them elastically.
+template <int D>
+struct Valve {
+  Piece<D> opening;                   ///< a plate
+  std::optional<double> faster_than;  ///< least speed that passes; absent: any
+  std::optional<double> slower_than;  ///< speed that no longer passes; absent: any
+  int from = 0;  ///< side that lets pass, along the axis: -1 the lower, 1 the upper, 0 both
+
+  /// Whether a particle passes that comes from a side, -1 or 1, with a speed.
+  bool passes(int side, double speed) const {
+    return (from == 0 || from == side) && !(speed < faster_than.value_or(0.0)) &&
+           !(slower_than && speed >= *slower_than);
+  }
+};
+
 /// A body at rest in the box: an obstacle or a partition.
 template <int D>
 struct Fixture {
@@ -30,6 +47,7 @@ struct Fixture {
   Wall law;                        ///< static, driven or thermal
   std::vector<Wall> of_species;    ///< [S] the law for each species; empty: all have `law`
   std::vector<bool> passes;        ///< [S] whether a species does not see it; empty: all see it
+  std::vector<Valve<D>> valves;    ///< in holes of a partition
 
   /// The law for a species, by its number.
   const Wall& law_for(std::uint32_t species) const {
@@ -37,7 +55,9 @@ struct Fixture {
   }
   /// Whether particles touch this one and another at the same places.
   bool has_shape_of(const Fixture& other) const {
-    return pieces == other.pieces && passes == other.passes;
+    const auto same = [](const Valve<D>& a, const Valve<D>& b) { return a.opening == b.opening; };
+    return pieces == other.pieces && passes == other.passes &&
+           std::ranges::equal(valves, other.valves, same);
   }
   /// Whether a species does not see it.
   bool lets_pass(std::uint32_t species) const { return species < passes.size() && passes[species]; }

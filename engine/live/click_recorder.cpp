@@ -28,7 +28,10 @@ void ClickRecorder<D>::on_collision(const PairCollision<D>& collision) {
 template <int D>
 void ClickRecorder<D>::on_wall(const WallCollision<D>& collision) {
   const double mass = simulation_.grain(collision.particle.particle).mass;
-  add(collision.particle.position, collision.particle.gain.momentum, mass, mass);
+  const auto& piston = simulation_.model().free_piston;
+  const bool free = collision.at_piston() && !piston->pinned;
+  add(collision.particle.position, collision.particle.gain.momentum, mass,
+      free ? mass / (1.0 + mass / piston->mass) : mass);
 }
 
 template <int D>

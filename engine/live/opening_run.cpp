@@ -44,6 +44,8 @@ static void start_from(State<D>& state, const VecX& shift, std::uint64_t seed, S
   const double temperature = temperature_of(state);
   scene.particles.start = {
       .layout = Layout::File, .file = "", .state = std::move(state), .temperature = temperature};
+  scene.particles.count_left.reset();
+  for (Species& species : scene.species) species.count_left.reset();
 }
 
 OpeningGases::OpeningGases(const command::Open& asked, const GasesInStep* present,

@@ -13,7 +13,7 @@ namespace clatter {
 /// Integrals over the flights of the free piston in one window of time, and sums over its hits.
 /// Lengths are displacements from its position at the start of the run.
 struct PistonWindow {
-  double duration = 0.0;
+  double duration = 0.0;                ///< of the window
   double displacement = 0.0;            ///< integral over time
   double squared_displacement = 0.0;    ///< the same of its square
   double squared_velocity = 0.0;        ///< the same of the square of the velocity
@@ -22,6 +22,7 @@ struct PistonWindow {
   double to_gas = 0.0;                  ///< energy that its hits give to the gas
   double dissipated = 0.0;              ///< energy lost in its hits
 
+  /// Visits all members, for checkpoints.
   template <class Archive>
   void visit(Archive& io) {
     auto& [duration, displacement, squared_displacement, squared_velocity, impulses, hits, to_gas,

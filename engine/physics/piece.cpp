@@ -215,6 +215,33 @@ double piece_contact_time(const Piece<D>& piece, const Flight<D>& flight, const 
   return time != kNever && on_piece(time) ? flight.time + time : kNever;
 }
 
+template <int D>
+double crossing_time(const Piece<D>& plate, const Flight<D>& flight, const Vec<D>& shift,
+                     const Vec<D>& gravity) {
+  const Vec<D> start = (flight.r + shift) - plate.corner;
+  const double rounding = kApproachRounding * (flight.r.norm() + plate.corner.norm());
+  double height = plate.normal.dot(start);
+  if (std::fabs(height) <= rounding) height = 0.0;
+  const double speed = plate.normal.dot(flight.v), half = 0.5 * plate.normal.dot(gravity);
+  // Roots of height + speed t + half t^2, by the form that adds numbers of one sign.
+  std::array<double, 2> times = {kNever, kNever};
+  if (half == 0.0) {
+    times[0] = -height / speed;
+  } else if (height == 0.0) {
+    times[0] = -speed / half;
+  } else if (const double root = speed * speed - 4.0 * half * height; root > 0.0) {
+    const double sum = -0.5 * (speed + std::copysign(std::sqrt(root), speed));
+    times = {sum / half, height / sum};
+    if (times[1] < times[0]) std::swap(times[0], times[1]);
+  }
+  for (const double time : times) {
+    if (!(time > 0.0 && time < kNever)) continue;
+    const Vec<D> place = start + (flight.v + gravity * (0.5 * time)) * time;
+    if (has_foot<D>(plate, place, rounding)) return flight.time + time;
+  }
+  return kNever;
+}
+
 template struct Piece<2>;
 template struct Piece<3>;
 template Piece<2> ball_piece(const Vec<2>&, double);
@@ -227,5 +254,8 @@ template double piece_contact_time(const Piece<2>&, const Flight<2>&, const Vec<
                                    const Vec<2>&);
 template double piece_contact_time(const Piece<3>&, const Flight<3>&, const Vec<3>&, double,
                                    const Vec<3>&);
+
+template double crossing_time(const Piece<2>&, const Flight<2>&, const Vec<2>&, const Vec<2>&);
+template double crossing_time(const Piece<3>&, const Flight<3>&, const Vec<3>&, const Vec<3>&);
 
 }  // namespace clatter

@@ -55,6 +55,12 @@ template <int D>
 double piece_contact_time(const Piece<D>& piece, const Flight<D>& flight, const Vec<D>& shift,
                           double radius, const Vec<D>& gravity);
 
+/// Time at which the centre of a particle crosses a plate in either direction, or kNever. A centre
+/// that begins on the plate, within rounding, has crossed it.
+template <int D>
+double crossing_time(const Piece<D>& plate, const Flight<D>& flight, const Vec<D>& shift,
+                     const Vec<D>& gravity);
+
 /// Times t >= 0 at which |x + v t + g t^2/2| falls to a distance, in order: none, one or two.
 struct FallTimes {
   int count = 0;

@@ -18,6 +18,7 @@ Snapshot snapshot_of(const Simulation<D>& simulation) {
     snapshot.wall_displacement[side] = simulation.wall(side).displacement;
   }
   snapshot.piston_travel = simulation.piston_travel();
+  if (state.piston) snapshot.free_piston = state.piston->place;
   snapshot.positions = as_columns(state.positions);
   snapshot.velocities = as_columns(state.velocities);
   snapshot.grains = std::move(state.grains);

@@ -60,6 +60,7 @@ struct Snapshot {
   std::array<std::optional<Wall>, 6> walls;   ///< indexed by Side; a pair absent: periodic
   std::array<double, 6> wall_displacement{};  ///< of each wall into the box at this time
   double piston_travel = 0.0;                 ///< of the right wall's rest position into the box
+  std::optional<double> free_piston;          ///< place of its middle; absent: there is none
   Vectors positions;                  ///< [D][N] centres, wrapped into the box, in original order
   Vectors velocities;                 ///< [D][N]
   std::vector<Grain> grains;          ///< [N] what the particles are; empty: all alike

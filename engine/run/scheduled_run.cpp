@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -301,13 +299,13 @@ template <int D>
 Snapshot ScheduledRun<D>::snapshot() {
   Snapshot snapshot = snapshot_of(*simulation_);
   snapshot.species = laws().species;
-  std::ranges::copy_if(laws().obstacles, std::back_inserter(snapshot.obstacles),
-                       &Obstacle::present);
-  std::ranges::copy_if(laws().partitions, std::back_inserter(snapshot.partitions),
-                       &Partition::present);
-  if (const PistonFlight* flight = simulation_->free_piston()) {
-    show_piston(*laws().piston, flight->at(simulation_->base_time()), snapshot);
+  for (const Obstacle& one : laws().obstacles) {
+    if (one.present) snapshot.obstacles.push_back(one);
   }
+  for (const Partition& one : laws().partitions) {
+    if (one.present) snapshot.partitions.push_back(one);
+  }
+  if (snapshot.free_piston) show_piston(*laws().piston, *snapshot.free_piston, snapshot);
   if (shown_) shown_->publish(snapshot);
   return snapshot;
 }

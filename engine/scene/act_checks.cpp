@@ -120,6 +120,10 @@ void check_pistons(const Scene& scene,
       throw UserError(place("piston"), "a piston has no other key beside time and until",
                       "give the piston a [[change]] of its own");
     }
+    if (scene.piston && scene.piston->axis == Axis::X) {
+      throw UserError(place("piston"), "the right wall would meet the free piston",
+                      "remove the table [piston], or this change");
+    }
     if (scene.periodic(0)) {
       throw UserError(place("piston"), "the piston is the right wall, which the box lacks",
                       "add [walls.left] and [walls.right], or remove the piston");

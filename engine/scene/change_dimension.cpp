@@ -26,7 +26,7 @@ VecX changed_box(const Scene& scene, int dimension) {
 }
 
 bool has_axis(const Override& setting, int dimension) {
-  for (const char* const table : {"gravity", "obstacle.", "partition.", "piston."}) {
+  for (const char* const table : {"gravity", "obstacle.", "partition."}) {
     if (setting.key.starts_with(table)) return false;
   }
   for (int side = 2 * dimension; side < 6; ++side) {
@@ -138,9 +138,19 @@ ChangedDimension change_dimension(const Scene& scene, int dimension) {
   if (made.piston && made.piston->axis != Axis::Z) {
     const int axis = static_cast<int>(made.piston->axis);
     made.piston->position *= made.box[axis] / scene.box[axis];
+    made.piston->thickness *= made.box[axis] / scene.box[axis];
   }
-  made.particles.count_left.reset();
-  for (Species& species : made.species) species.count_left.reset();
+  if (!divider_of(made)) {
+    made.particles.count_left.reset();
+    for (Species& species : made.species) species.count_left.reset();
+    std::erase(made.view.plots, FilmPlot::Compartments);
+  }
+  if (!made.piston) {
+    std::erase(made.view.plots, FilmPlot::Piston);
+    for (Change& change : made.changes) {
+      std::erase_if(change.set, [](const Override& one) { return one.key.starts_with("piston."); });
+    }
+  }
 
   Start& start = made.particles.start;
   remove_if(start.layout == Layout::File, "particles.start.file",

@@ -34,6 +34,8 @@ inline constexpr std::array<Named<WallKind>, 5> kWallKinds = {
      {"sawtooth", WallKind::Sawtooth},
      {"sinusoidal", WallKind::Sinusoidal}}};
 
+inline constexpr std::array<Named<PartitionSide>, 2> kPartitionSides = {
+    {{"left", PartitionSide::Left}, {"right", PartitionSide::Right}}};
 inline constexpr std::array<Named<ObstacleKind>, 3> kObstacleKinds = {
     {{"ball", ObstacleKind::Ball}, {"polygon", ObstacleKind::Polygon}, {"box", ObstacleKind::Box}}};
 
@@ -84,12 +86,14 @@ inline constexpr std::array<Named<OverlayPart>, 9> kOverlayParts = {
      {"scale_bar", OverlayPart::ScaleBar},
      {"captions", OverlayPart::Captions}}};
 
-inline constexpr std::array<Named<FilmPlot>, 10> kFilmPlots = {
+inline constexpr std::array<Named<FilmPlot>, 12> kFilmPlots = {
     {{"temperature", FilmPlot::Temperature},
      {"energy", FilmPlot::Energy},
      {"velocities", FilmPlot::Velocities},
      {"species_temperature", FilmPlot::SpeciesTemperature},
      {"mixing", FilmPlot::Mixing},
+     {"compartments", FilmPlot::Compartments},
+     {"piston", FilmPlot::Piston},
      {"density_profile", FilmPlot::DensityProfile},
      {"temperature_profile", FilmPlot::TemperatureProfile},
      {"stress_profile", FilmPlot::StressProfile},

@@ -186,6 +186,14 @@ inline constexpr auto kHoleKeys = key_table(
                     "in order."},
                    {"to", "a", "Upper end of the hole, in the same way."}});
 
+inline constexpr auto kValveKeys = key_table(
+    kRunCommands,
+    {{"faster_than", "a/t", "Least speed of the particles that pass. Without a value any speed."},
+     {"slower_than", "a/t", "Speed below which particles pass. Without a value any speed."},
+     {"from", "",
+      "Side from which particles pass: left is the lower one along the axis. Without "
+      "a value both."}});
+
 /// The keys of one item of [[partition]].
 template <class Visitor>
 void visit_partition(Visitor& io, Partition& partition, int dimension,
@@ -201,6 +209,11 @@ void visit_partition(Visitor& io, Partition& partition, int dimension,
     hole.to.resize(hole.from.size());
     io.value(kHoleKeys.at("from"), hole.from, between(0.0, kMaxLength), kRequired);
     io.value(kHoleKeys.at("to"), hole.to, between(0.0, kMaxLength), kRequired);
+    io.table("valve", hole.valve, [](auto& io, HoleValve& valve) {
+      io.value(kValveKeys.at("faster_than"), valve.faster_than, between(0.0, kMaxSpeed));
+      io.value(kValveKeys.at("slower_than"), valve.slower_than, between(0.0, kMaxSpeed));
+      io.choice(kValveKeys.at("from"), valve.from, kPartitionSides);
+    });
   });
 }
 
@@ -279,7 +292,8 @@ inline constexpr auto kParticleKeys = key_table(
       "Moment of inertia, as q = 4I/(m a^2). A uniform disk has 0.5, a uniform sphere 0.4."},
      {"count_left", "1",
       "Number of particles that start on the lower side of the piston, or of the first partition "
-      "between walls. Without a value they divide as the free lengths."}});
+      "between walls. Without a value those beside a piston divide as the free lengths, and those "
+      "beside a partition are anywhere."}});
 
 /// The keys of [particles]. Count and packing fraction are resolved after the whole scene is read.
 template <class Visitor>
@@ -293,8 +307,7 @@ void visit_particles(Visitor& io, SceneInput& input) {
   visit_roughness(io, particles.roughness, kOptional);
   io.value(kParticleKeys.at("inertia"), particles.inertia, between(kMinInertia, 1.0),
            input.spin_key());
-  io.value(kParticleKeys.at("count_left"), particles.count_left, between(0, kMaxCount),
-           input.species_names.empty() ? kOptional : kNotBesideSpecies);
+  io.value(kParticleKeys.at("count_left"), particles.count_left, between(0, kMaxCount));
   io.table("start", [&](auto& io) { visit_start(io, particles.start, input.spin_key()); });
 }
 
@@ -324,7 +337,8 @@ inline constexpr auto kSpeciesKeys = key_table(
       "`[particles]`."},
      {"count_left", "1",
       "Number of its particles that start on the lower side of the piston, or of the first "
-      "partition between walls. Without a value they divide as the free lengths."},
+      "partition between walls. Without a value those beside a piston, or beside a species with a "
+      "value, divide as the free lengths."},
      {"colour", "", "Colour in pictures, as \"#rrggbb\". Without a value one of the palette."}});
 
 /// The keys of one item of [[species]]. Its count is resolved after the whole scene is read.

@@ -56,9 +56,6 @@ inline constexpr Presence kNotBesideMass = {Presence::Forbidden, "has no meaning
 inline constexpr Presence kNotOfObstacle = {Presence::Forbidden,
                                             "has no meaning for this kind of obstacle",
                                             "remove it or choose another kind"};
-inline constexpr Presence kNotBesideSpecies = {Presence::Forbidden,
-                                               "has no meaning beside [[species]]",
-                                               "remove it, and give count_left to each species"};
 inline constexpr Presence kNotOfThermal = {
     Presence::Forbidden, "has no meaning beside temperature: a thermal surface emits all particles",
     "remove one of the two"};

@@ -193,10 +193,36 @@ std::vector<Piece<D>> partition_pieces(const Scene& scene, const Partition& part
 }
 
 template <int D>
+std::vector<Valve<D>> valves_of(const Partition& partition) {
+  const int across = static_cast<int>(partition.axis);
+  std::vector<Valve<D>> valves;
+  for (const Hole& hole : partition.holes) {
+    if (!hole.valve) continue;
+    Vec<D> corner = partition.position * Vec<D>::Unit(across);
+    std::vector<Vec<D>> edges;
+    for (int axis = 0, k = 0; axis < D; ++axis) {
+      if (axis == across) continue;
+      corner[axis] = hole.from[k];
+      edges.push_back((hole.to[k] - hole.from[k]) * Vec<D>::Unit(axis));
+      ++k;
+    }
+    Valve<D>& valve = valves.emplace_back();
+    valve.opening = flat_piece<D>(corner, edges);
+    valve.faster_than = hole.valve->faster_than;
+    valve.slower_than = hole.valve->slower_than;
+    if (hole.valve->from) valve.from = *hole.valve->from == PartitionSide::Left ? -1 : 1;
+  }
+  return valves;
+}
+
+template <int D>
 Fixture<D> fixture_of(const Scene& scene, const Partition& partition, std::size_t number) {
   Fixture<D> fixture = with_law<D>(scene, partition_name(partition, number), partition.law);
   fixture.plane = {static_cast<int>(partition.axis), partition.position};
-  if (partition.present) fixture.pieces = partition_pieces<D>(scene, partition);
+  if (partition.present) {
+    fixture.pieces = partition_pieces<D>(scene, partition);
+    fixture.valves = valves_of<D>(partition);
+  }
   for (const Species& species : scene.species) {
     fixture.passes.push_back(std::ranges::find(partition.passes, species.name) !=
                              partition.passes.end());

@@ -43,10 +43,23 @@ struct Obstacle {
   bool operator==(const Obstacle&) const = default;
 };
 
+/// A side of a partition, along its axis.
+enum class PartitionSide { Left, Right };
+
+/// Particles that pass a hole, see Valve. The others are reflected.
+struct HoleValve {
+  std::optional<double> faster_than;  ///< least speed that passes; absent: any
+  std::optional<double> slower_than;  ///< speed that no longer passes; absent: any
+  std::optional<PartitionSide> from;  ///< side from which they pass; absent: both
+
+  bool operator==(const HoleValve&) const = default;
+};
+
 /// An opening of a partition: an interval, or a rectangle in 3D, along the other axes in order.
 struct Hole {
   std::vector<double> from = {0.0};  ///< [D - 1]
   std::vector<double> to = {0.0};    ///< [D - 1]
+  std::optional<HoleValve> valve = {};  ///< absent: all that fit pass
 
   bool operator==(const Hole&) const = default;
 };

@@ -165,6 +165,19 @@ void check_partition(const Scene& scene, const Partition& partition, const Item&
   }
   for (std::size_t i = 0; i < partition.holes.size(); ++i) {
     const Hole& hole = partition.holes[i];
+    if (hole.valve) {
+      const auto& [faster, slower, from] = *hole.valve;
+      if (!faster && !slower && !from) {
+        item.refuse("holes", "a valve without a condition is an open hole",
+                    "give it faster_than, slower_than or from, or remove it");
+      }
+      if (faster && slower && !(*faster < *slower)) {
+        item.refuse(
+            "holes",
+            "no speed is above " + number_text(*faster) + " and below " + number_text(*slower),
+            "choose faster_than below slower_than");
+      }
+    }
     for (int axis = 0, k = 0; axis < scene.dimension(); ++axis) {
       if (axis == across) continue;
       const double from = hole.from[k], to = hole.to[k], side = scene.box[axis];
@@ -235,7 +248,8 @@ void check_fixtures(const Scene& scene, const toml::table& root, const std::stri
   constexpr std::size_t kMostPieces = 60'000;
   const std::size_t pieces = with_dimension(scene.dimension(), [&](auto dimension) {
     std::size_t sum = 0;
-    for (const auto& fixture : fixtures_of<dimension>(scene)) sum += fixture.pieces.size();
+    for (const auto& fixture : fixtures_of<dimension>(scene))
+      sum += fixture.pieces.size() + fixture.valves.size();
     return sum;
   });
   if (pieces > kMostPieces) {
@@ -263,8 +277,12 @@ static void check_count_left(const Scene& scene, const toml::table& root, const 
                         std::to_string(*left) + " cannot start on one side",
                     "choose at most " + std::to_string(count));
   };
-  check(scene.particles.count_left, scene.particles.count,
-        place_of(root, "particles.count_left", file));
+  const Place of_all = place_of(root, "particles.count_left", file);
+  if (scene.particles.count_left && !scene.species.empty()) {
+    throw UserError(of_all, "'particles.count_left' has no meaning beside [[species]]",
+                    "give count_left to each species");
+  }
+  check(scene.particles.count_left, scene.particles.count, of_all);
   for (std::size_t k = 0; k < scene.species.size(); ++k) {
     check(scene.species[k].count_left, scene.species[k].count,
           Item(root, "species", k, file).place("count_left"));
@@ -293,14 +311,13 @@ void check_piston(const Scene& scene, const toml::table& root, const std::string
     refuse(scene.obstacles.empty() ? "partition" : "obstacle",
            "the piston would meet the fixtures of the box", "remove them, or the table [piston]");
   }
-  const double low = scene.clear_corner()[axis] + 0.5 * piston.thickness;
-  const double high = scene.clear_corner()[axis] + scene.clear_box()[axis] - 0.5 * piston.thickness;
-  if (!(piston.position >= low && piston.position <= high)) {
-    const bool fits = low <= high;
+  const double low = 0.5 * piston.thickness, high = scene.box[axis] - low;
+  if (!(piston.position > low && piston.position < high)) {
+    const bool fits = low < high;
     refuse(fits ? "piston.position" : "piston.thickness",
            fits ? "the piston is not between the walls along " + name
-                : "the piston is thicker than the free box along " + name,
-           fits ? "place it between " + number_text(low) + " and " + number_text(high)
+                : "the piston is as thick as the box along " + name,
+           fits ? "place it above " + number_text(low) + " and below " + number_text(high)
                 : "make it thinner, or the box longer");
   }
   if (const toml::table* tables = root["piston"]["species"].as_table()) {

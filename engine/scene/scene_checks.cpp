@@ -368,6 +368,16 @@ static void check_plots(const Scene& scene, const toml::table& root, const std::
                     '"' + std::string(name_of(plot, kFilmPlots)) + "\" is for mixtures",
                     "remove it, or give the scene more [[species]]");
   }
+  const auto has = [&](FilmPlot plot) { return std::ranges::count(scene.view.plots, plot) > 0; };
+  if (has(FilmPlot::Compartments) && !divider_of(scene)) {
+    throw UserError(place_of(root, "view.plots", file),
+                    "\"compartments\" is for a box that something divides",
+                    "remove it, or add [piston], or a [[partition]] between two walls");
+  }
+  if (has(FilmPlot::Piston) && !scene.piston) {
+    throw UserError(place_of(root, "view.plots", file), "\"piston\" is for a free piston",
+                    "remove it, or add the table [piston]");
+  }
   if (scene.view.plots.size() <= View::kMostPlots) return;
   throw UserError(place_of(root, "view.plots", file),
                   "films have at most " + std::to_string(View::kMostPlots) + " plots",

@@ -253,6 +253,16 @@ Scene with_settings(const Scene& scene, const std::vector<Override>& settings) {
   return made;
 }
 
+std::vector<Override> fixture_settings(const Scene& scene) {
+  const toml::table root = parse_document(scene_to_toml(scene), "");
+  std::vector<Override> settings;
+  for (const char* const list : {"obstacle", "partition"}) {
+    const toml::node* items = root.get(list);
+    settings.push_back({list, items ? toml_text(*items) : "[]"});
+  }
+  return settings;
+}
+
 Scene load_gallery_scene(const EmbeddedFile& scene, const std::vector<Override>& overrides) {
   return parse_scene({std::string(scene.bytes), std::string(scene.name), Origin::Gallery},
                      overrides);

@@ -53,6 +53,9 @@ Scene parse_scene(std::string_view text, const std::string& file,
 /// later.
 Scene with_settings(const Scene& scene, const std::vector<Override>& settings);
 
+/// The settings that give a scene the obstacles and partitions of this one.
+std::vector<Override> fixture_settings(const Scene& scene);
+
 /// The scene as a file that parses back to the same scene, every default written out.
 std::string scene_to_toml(const Scene& scene);
 

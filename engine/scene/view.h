@@ -135,6 +135,8 @@ enum class FilmPlot {
   Velocities,
   SpeciesTemperature,  ///< of mixtures only
   Mixing,              ///< of mixtures only
+  Compartments,        ///< of a scene with a divider, see divider_of()
+  Piston,              ///< of a scene with a free piston
   DensityProfile,
   TemperatureProfile,
   StressProfile,

@@ -182,10 +182,11 @@ void FixtureLayer::add_partition(const Partition& partition, const Snapshot& sna
   // The ends at walls and edges of the picture are outside of the drawn extent.
   const double reach = (thickness + width) / scale;
   const std::array<double, 2> drawn = {extent.low[along] - reach, extent.high[along] + reach};
-  for (const auto& [from, to] : closed_segments(partition, snapshot, drawn)) {
+  const auto add = [&](double from, double to, bool valve) {
+    const double thin = valve ? width / kWidth : width;
     Vec2 low, high;
-    low[across] = partition.position - 0.5 * width / scale;
-    high[across] = partition.position + 0.5 * width / scale;
+    low[across] = partition.position - 0.5 * thin / scale;
+    high[across] = partition.position + 0.5 * thin / scale;
     low[along] = from;
     high[along] = to;
     const double outline = 2.0 * ((to - from) * scale + width);
@@ -194,7 +195,8 @@ void FixtureLayer::add_partition(const Partition& partition, const Snapshot& sna
       body.marks[0] = static_cast<float>(Mark::Plain);
     }
     body.marks[3] = 1.0f - body.marks[3];  // away from the line
-    if (!partition.passes.empty()) {
+    if (valve) body.marks[0] = static_cast<float>(Mark::Plain);
+    if (valve || !partition.passes.empty()) {
       body.counts[1] = static_cast<float>((along == 0 ? 4.0 : -4.0) * width);
     }
     const std::vector<Vec2> corners = {low, Vec2(high.x(), low.y()), high, Vec2(low.x(), high.y())};
@@ -205,6 +207,16 @@ void FixtureLayer::add_partition(const Partition& partition, const Snapshot& sna
     repeated[across] = !snapshot.walls[2 * across];
     add_images(body, low, low.array() - reach, high.array() + reach, snapshot, projection, extent,
                repeated);
+  };
+  for (const auto& [from, to] : closed_segments(partition, snapshot, drawn)) add(from, to, false);
+  for (const Hole& hole : partition.holes) {
+    if (!hole.valve) continue;
+    const double period = snapshot.box[along];
+    const auto [first, last] =
+        image_shifts({hole.from[0], hole.to[0]}, period, !snapshot.walls[2 * along], drawn);
+    for (int shift = first; shift <= last; ++shift) {
+      add(hole.from[0] + shift * period, hole.to[0] + shift * period, true);
+    }
   }
 }
 

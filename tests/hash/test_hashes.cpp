@@ -58,6 +58,12 @@ constexpr GalleryHash kGallery[] = {
     {"spheres_vibrated.toml", 0xd726d2453464c7e9},
     {"two_temperatures.toml", 0xbb154a53cb90151d},
     {"vibrated.toml", 0x893fff2f2673d6a9},
+    {"lid.toml", 0x690ca7d04ad6547a},
+    {"osmosis.toml", 0xa62db13793b71c3a},
+    {"piston.toml", 0xe9150f3eea8978a0},
+    {"echo.toml", 0x5f471677f6f32384},
+    {"doorkeeper.toml", 0x4e8c858b5150f229},
+    {"ratchet.toml", 0xffefa658a9924cd4},
 };
 
 struct SceneHash {

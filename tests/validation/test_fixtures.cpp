@@ -221,4 +221,44 @@ measure = { burn_in = 0.0, duration = 200.0 }
   CHECK(changes > 50.0);
 }
 
+// Small disks pass the membrane and large ones do not. In the dilute limit the large ones alone
+// press on it: F = N T / (l - d) on the length l of their side. Their second virial coefficient
+// adds N pi d^2 / (2 A), here 1.1 %. The small ones have one chemical potential on both sides, and
+// cancel to first order (McMillan & Mayer 1945).
+TEST_CASE("Fixture physics: osmotic pressure of large disks at a membrane") {
+  const std::string text = R"(
+box.size = [40.0, 30.0]
+walls.left.kind = "static"
+walls.right.kind = "static"
+[[species]]
+name = "large"
+count = 12
+count_left = 12
+diameter = 0.6
+mass = 3.0
+[[species]]
+name = "small"
+count = 40
+diameter = 0.2
+mass = 0.5
+[[partition]]
+axis = "x"
+position = 20.0
+passes = ["small"]
+)";
+  Sample forces;
+  for (std::uint64_t seed = 1; seed <= 48; ++seed) {
+    const Measured result = measured(text, 100.0, 1500.0, seed);
+    REQUIRE(result.fixtures.size() == 1);
+    CHECK(result.compartments->count_left.mean > 12.0);
+    forces.add(result.fixtures[0].force.at(0).mean / result.species.at(0).temperature->mean);
+  }
+  const double ideal = 12.0 / (20.0 - 0.6);
+  const double of_large = 12.0 * kPi * 0.6 * 0.6 / (2.0 * 600.0);
+  const double expected = ideal * (1.0 + of_large);
+  MESSAGE("F/T " << forces.mean() << "(" << forces.standard_error() << "), expected " << expected);
+  CHECK(forces.standard_error() < 0.01 * expected);
+  CHECK(std::fabs(forces.mean() - expected) < 3.0 * forces.standard_error());
+}
+
 }  // namespace clatter::fixture_physics

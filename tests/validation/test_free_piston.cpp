@@ -39,6 +39,15 @@ PistonSamples samples(const std::string& text, double burn_in, double duration,
   return all;
 }
 
+/// Checks the variance of the place: within the runs, and between their means.
+void check_variance(const PistonSamples& all, double expected, double precision, double runs) {
+  const double error = all.place.standard_error();
+  const double variance = all.variance.mean() + (runs - 1.0) * error * error;
+  MESSAGE(variance << "(" << all.variance.standard_error() << "), expected " << expected);
+  CHECK(all.variance.standard_error() < precision * expected);
+  CHECK(std::fabs(variance - expected) < 4.0 * all.variance.standard_error());
+}
+
 /// Checks a mean within 4 standard errors, which must be below a share of the expected value.
 void check_sample(const Sample& sample, double expected, double precision) {
   MESSAGE(sample.mean() << "(" << sample.standard_error() << "), expected " << expected);
@@ -85,7 +94,7 @@ TEST_CASE("Free piston physics: one disk on each side") {
                   "piston = { position = 6.0, mass = 2.0 }\n",
               100.0, 2000.0, 60);
   check_sample(all.place, 6.0, 0.01);
-  check_sample(all.variance, 10.0 * 10.0 / 20.0, 0.03);
+  check_variance(all, 10.0 * 10.0 / 20.0, 0.03, 60.0);
 }
 
 // With a weight F over N disks, X - d has the density (X - d)^N exp(-F X / T).
@@ -97,12 +106,13 @@ TEST_CASE("Free piston physics: a weighed piston over one disk on a thermal wall
       "piston = { axis = \"y\", position = 4.0, mass = 3.0, force = -1.0 }\n";
   const PistonSamples all = samples(lid, 100.0, 2000.0, 60);
   check_sample(all.place, 1.0 + 2.0 * 1.5, 0.01);
-  check_sample(all.variance, 2.0 * 1.5 * 1.5, 0.05);
+  check_variance(all, 2.0 * 1.5 * 1.5, 0.05, 60.0);
   check_sample(all.temperature, 1.5, 0.02);
   check_sample(all.force, 1.0, 1e-3);
 }
 
-// Both sides have the pressure and density of scaled particle theory, which is good to 0.5 % here.
+// Both sides have the pressure and density of scaled particle theory, which is good to a percent or
+// two here.
 TEST_CASE("Free piston physics: 40 disks beside 20") {
   const double length = 20.0, width = 10.0;
   const auto gap = [&](double place) {
@@ -121,10 +131,11 @@ TEST_CASE("Free piston physics: 40 disks beside 20") {
                   "piston = { position = 13.0, mass = 20.0 }\n",
               200.0, 3000.0, 24);
   check_sample(all.place, low, 0.003);
-  check_sample(all.variance, variance, 0.05);
+  check_variance(all, variance, 0.05, 24.0);
   check_sample(all.temperature, 1.0, 0.02);
+  // The pressure at the mean place is below the mean pressure, because it is convex.
   CHECK(all.force.mean() ==
-        doctest::Approx(width * pressure(bulk_density(40.0, low, width))).epsilon(0.01));
+        doctest::Approx(width * pressure(bulk_density(40.0, low, width))).epsilon(0.03));
 }
 
 // Everything that has energy is in the sum: gas, piston, gravity and weight. Hits on the piston and

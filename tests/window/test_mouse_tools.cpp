@@ -151,6 +151,26 @@ TEST_CASE("Mouse tools: halted spheres are heated once by a press, however long,
   CHECK(check_next_frame(driver)["changes"] == 1);
 }
 
+TEST_CASE("Mouse tools: a ball is drawn among the disks, and undo removes it") {
+  const GuiDriver driver("--until 1 --set particles.count=60");
+  driver.wait_for("status", 0, halted);
+  driver.click("tool.ball");
+  std::size_t told = driver.told();
+  driver.pull("viewport", 40, 0);
+  const json keys = driver.wait_for("set", told)["keys"];
+  CHECK(says(keys["obstacle"], "\"ball\""));
+  const json status = driver.wait_for("status", told, halted);
+  told = driver.told();
+  driver.key("ctrl+s");
+  const std::string file = driver.wait_for("saved", told)["file"];
+  const Outcome drawn = driver.shell().run("clatter check --quiet " + file);
+  CHECK(says(drawn.out, "[[obstacle]]"));
+
+  told = driver.told();
+  driver.key("ctrl+z");
+  CHECK(says(driver.wait_for("set", told)["keys"]["obstacle"], "[]"));
+}
+
 TEST_CASE("Mouse tools: a click adds particles to a halted gas, which has no piston") {
   const GuiDriver driver("--until 1 --set particles.count=60");
   const json before = driver.wait_for("status", 0, halted);

@@ -166,4 +166,53 @@ holes = [{ from = [2.0], to = [3.0] }]
                    2000);
 }
 
+// Valves pass by speed and side, also in flights that gravity bends back to them.
+TEST_CASE("Fixtures: valves equal the reference") {
+  const std::string demon = R"(
+[[partition]]
+axis = "x"
+position = 4.5
+restitution = 0.9
+holes = [{ from = [1.0], to = [3.0], valve = { faster_than = 1.0, from = "left" } },
+         { from = [4.0], to = [6.0], valve = { slower_than = 1.2, from = "right" } }]
+[[partition]]
+axis = "y"
+position = 6.5
+holes = [{ from = [2.0], to = [7.0], valve = { faster_than = 0.5, slower_than = 1.5 } }]
+)";
+  const std::string fall = "[gravity]\nacceleration = [0.3, -0.5]\n";
+  for (const int count : {1, 2, 14}) {
+    CAPTURE(count);
+    compare_scene<2>(gas("[9.0, 8.0]", count) + kWalls + demon, 500);
+    compare_scene<2>(gas("[9.0, 8.0]", count) + kWalls + demon + fall, 500);
+  }
+  compare_scene<3>(gas("[5.0, 5.0, 4.0]", 20) + kWalls + R"(
+[[partition]]
+axis = "x"
+position = 2.5
+holes = [{ from = [0.5, 0.5], to = [3.5, 3.0], valve = { faster_than = 1.0 } }]
+)",
+                   500);
+}
+
+// One way: all particles come to rest behind the valve.
+TEST_CASE("Fixtures: a valve from one side empties it") {
+  const Scene scene = parse_scene(gas("[12.0, 8.0]", 10) + kWalls + R"(
+[[partition]]
+axis = "x"
+position = 4.0
+holes = [{ from = [2.0], to = [6.0], valve = { from = "left" } }]
+)",
+                                  "");
+  Simulation<2> gas(model_of<2>(scene, 1), start_state<2>(scene, 1));
+  const auto left = [&] {
+    int count = 0;
+    for (const Vec2& r : gas.positions()) count += r.x() < 4.0;
+    return count;
+  };
+  CHECK(left() > 0);
+  gas.run_until(500.0);
+  CHECK(left() == 0);
+}
+
 }  // namespace clatter::fixtures

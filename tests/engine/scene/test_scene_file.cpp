@@ -384,7 +384,7 @@ TEST_CASE("Scene file: a file is found by path or name, or the reason why not is
 }
 
 TEST_CASE("Scene file: the gallery's scenes are sound and presented") {
-  CHECK(embedded_scenes().size() == 25);
+  CHECK(embedded_scenes().size() == 31);
   for (const EmbeddedFile& file : embedded_scenes()) {
     CAPTURE(file.name);
     const Scene scene = load_scene(std::string(file.name));

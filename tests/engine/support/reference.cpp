@@ -127,32 +127,58 @@ void Reference<D>::weigh_fixtures(std::uint32_t i, double horizon, Next& first) 
   const Vec<D> r = flights_[i].at(now_, model_.gravity);
   const Vec<D> v = flights_[i].velocity_at(now_, model_.gravity);
   std::uint32_t number = 0;
-  for (const Fixture<D>& fixture : model_.fixtures) {
-    for (const Piece<D>& piece : fixture.pieces) {
-      const std::uint32_t partner = kPiece + number++;
-      if (fixture.lets_pass(grain(i).species)) continue;
-      IntVec<D> from = IntVec<D>::Zero(), to = IntVec<D>::Zero();
-      for (int axis = 0; axis < D; ++axis) {
-        if (!model_.periodic(axis)) continue;
-        const double reach = std::fabs(v[axis]) * span +
-                             0.5 * std::fabs(model_.gravity[axis]) * span * span +
-                             2.0 * model_.box[axis];
-        from[axis] = static_cast<int>(std::floor((-r[axis] - reach) / model_.box[axis])) - 1;
-        to[axis] = static_cast<int>(std::ceil((-r[axis] + reach) / model_.box[axis])) + 1;
-      }
-      IntVec<D> image = from;
-      while (image[0] <= to[0]) {
-        const Vec<D> shift = image.template cast<double>().cwiseProduct(model_.box);
-        const Event event{
-            piece_contact_time<D>(piece, flights_[i], shift, grain(i).radius, model_.gravity), i,
-            partner};
-        if (event.time < kNever && before(event, first.event)) first = {event, image};
-        for (int axis = D - 1; ++image[axis] > to[axis] && axis > 0; --axis) {
-          image[axis] = from[axis];
-        }
+  const auto weigh = [&](const Fixture<D>& fixture, const Piece<D>& piece, bool valve) {
+    const std::uint32_t partner = kPiece + number++;
+    if (fixture.lets_pass(grain(i).species)) return;
+    IntVec<D> from = IntVec<D>::Zero(), to = IntVec<D>::Zero();
+    for (int axis = 0; axis < D; ++axis) {
+      if (!model_.periodic(axis)) continue;
+      const double reach = std::fabs(v[axis]) * span +
+                           0.5 * std::fabs(model_.gravity[axis]) * span * span +
+                           2.0 * model_.box[axis];
+      from[axis] = static_cast<int>(std::floor((-r[axis] - reach) / model_.box[axis])) - 1;
+      to[axis] = static_cast<int>(std::ceil((-r[axis] + reach) / model_.box[axis])) + 1;
+    }
+    IntVec<D> image = from;
+    while (image[0] <= to[0]) {
+      const Vec<D> shift = image.template cast<double>().cwiseProduct(model_.box);
+      const Event event{
+          valve ? crossing_time<D>(piece, flights_[i], shift, model_.gravity)
+                : piece_contact_time<D>(piece, flights_[i], shift, grain(i).radius, model_.gravity),
+          i, partner};
+      if (event.time < kNever && before(event, first.event)) first = {event, image};
+      for (int axis = D - 1; ++image[axis] > to[axis] && axis > 0; --axis) {
+        image[axis] = from[axis];
       }
     }
+  };
+  for (const Fixture<D>& fixture : model_.fixtures) {
+    for (const Piece<D>& piece : fixture.pieces) weigh(fixture, piece, false);
   }
+  for (const Fixture<D>& fixture : model_.fixtures) {
+    for (const Valve<D>& valve : fixture.valves) weigh(fixture, valve.opening, true);
+  }
+}
+
+// The valve lets a centre pass, or reflects it.
+template <int D>
+void Reference<D>::meet_valve(const Fixture<D>& fixture, const Valve<D>& valve, const Next& next) {
+  const std::uint32_t i = next.event.particle;
+  const int axis = fixture.plane->axis;
+  Vec<D> r = flights_[i].at(now_, model_.gravity);
+  Vec<D> v = flights_[i].velocity_at(now_, model_.gravity);
+  const Vec<D> place = r + next.image.template cast<double>().cwiseProduct(model_.box);
+  r[axis] += valve.opening.corner[axis] - place[axis];
+  const double speed = v.norm();
+  bool passes = !(valve.faster_than && speed < *valve.faster_than) &&
+                !(valve.slower_than && speed >= *valve.slower_than);
+  if (valve.from == -1) passes = passes && v[axis] > 0.0;
+  if (valve.from == 1) passes = passes && !(v[axis] > 0.0);
+  if (passes) return renew(i, r, v, spin(i));
+  v[axis] -= 2.0 * v[axis];
+  renew(i, r, v, spin(i));
+  last_collisions_[i] = now_;
+  ++particle_wall_;
 }
 
 template <int D>
@@ -211,8 +237,15 @@ void Reference<D>::hit_fixture(const Next& next) {
   const std::uint32_t i = next.event.particle;
   std::uint32_t number = next.event.partner - kPiece;
   auto fixture = model_.fixtures.begin();
-  for (; number >= fixture->pieces.size(); ++fixture) {
+  for (; fixture != model_.fixtures.end() && number >= fixture->pieces.size(); ++fixture) {
     number -= static_cast<std::uint32_t>(fixture->pieces.size());
+  }
+  if (fixture == model_.fixtures.end()) {
+    fixture = model_.fixtures.begin();
+    for (; number >= fixture->valves.size(); ++fixture) {
+      number -= static_cast<std::uint32_t>(fixture->valves.size());
+    }
+    return meet_valve(*fixture, fixture->valves[number], next);
   }
   const Piece<D>& piece = fixture->pieces[number];
   Vec<D> r = flights_[i].at(now_, model_.gravity);

@@ -70,6 +70,7 @@ class Reference {
   void collide(const Next& next);
   void hit_wall(const Event& event);
   void hit_fixture(const Next& next);
+  void meet_valve(const Fixture<D>& fixture, const Valve<D>& valve, const Next& next);
   void hit_piston(std::uint32_t i);
   bool reflect_piston(double horizon);
   bool within_contact_time(std::uint32_t i) const;
