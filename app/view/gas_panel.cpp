@@ -77,8 +77,14 @@ void gas_panel(Session& session, Controls& controls) {
                scene.particles.restitution, session.opened().particles.restitution);
   roughness(session, controls);
   species_controls(session, controls);
-  if (controls.button("reverse", "Reverse velocities",
-                      "Changes the signs of all velocities and spins. An elastic gas runs back")) {
+  // A gas that loses energy does not run back.
+  const bool elastic = scene.particles.restitution == 1.0 &&
+                       std::ranges::all_of(scene.pairs, [](const SpeciesPair& pair) {
+                         return pair.restitution.value_or(1.0) == 1.0;
+                       });
+  if (elastic && controls.button("reverse", "Reverse velocities",
+                                 "Changes the signs of all velocities and spins: the gas runs "
+                                 "back")) {
     session.reverse();
   }
 }

@@ -97,7 +97,7 @@ std::optional<std::size_t> particle_near(const Snapshot& gas, const WindowMap& m
 bool MouseTools::panel(const Scene& scene, Controls& controls) {
   if (!controls.group("Mouse tools")) return false;
   constexpr auto kCount = static_cast<float>(kTools.size());
-  constexpr int kColumns = 3;  // of a narrow panel
+  constexpr int kColumns = 4;  // of a narrow panel
   const float gap = ImGui::GetStyle().ItemSpacing.x, room = ImGui::GetContentRegionAvail().x;
   float text = 0.0f;
   for (const ToolText& tool : kTools) text += ImGui::CalcTextSize(tool.name).x;
