@@ -15,7 +15,7 @@ double rounded(double number) {
   return std::round(100.0 * number) / 100.0;
 }
 
-Vec2 rounded(const Vec2& place) {
+Vec2 rounded_place(const Vec2& place) {
   return {rounded(place.x()), rounded(place.y())};
 }
 
@@ -40,14 +40,14 @@ Scene with_ball(Scene scene, const Vec2& from, const Vec2& to) {
     const Vec2 centre = ball.centre;
     if ((from - centre).norm() > ball.radius + kReach) continue;
     if ((from - centre).norm() < kRim * ball.radius) {
-      ball.centre = rounded(Vec2(centre + to - from));
+      ball.centre = rounded_place(centre + to - from);
     } else {
       ball.radius = std::max(kLeast, rounded((to - centre).norm()));
     }
     return scene;
   }
   Obstacle& ball = scene.obstacles.emplace_back();
-  ball.centre = rounded(from);
+  ball.centre = rounded_place(from);
   ball.from = ball.to = Vec2::Zero();
   ball.radius = std::max(kLeast, rounded((to - from).norm()));
   return scene;

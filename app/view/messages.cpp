@@ -167,7 +167,7 @@ constexpr std::array<KeyLine, 34> kKeyLines = {{
     {"L", "lecture: large type, three sliders and a plot"},
     {"D  K  W", "lecture: pen, pointer with a trail, stopwatch"},
     {"F11", "full screen"},
-    {"1  2  3  4  5", "heat, cool, kick, throw, add particles with the mouse"},
+    {"1 to 8", "heat, cool, kick, throw, add particles; draw balls, walls, erase"},
     {"Esc", "close the open panel, end a tool, or deselect the particle"},
     {"Drag", "turn the view", true},
     {"X  Y  Z  I", "view along an axis, isometric view", true},
