@@ -13,7 +13,8 @@ namespace clatter::two_compartments_theory {
 TEST_CASE("Two compartments: an equal split becomes unstable at the maximum of the flux") {
   const std::vector<std::pair<double, double>> table = {{0.2, 2.82}, {0.25, 2.37}, {0.4, 1.66},
                                                         {0.5, 1.41}, {1.0, 0.864}, {3.0, 0.424}};
-  for (const auto& [height, threshold] : table) {
+  for (const auto& row : table) {
+    const double height = row.first, threshold = row.second;
     CAPTURE(height);
     TwoCompartments gas{.width = 1.0, .restitution = std::sqrt(0.5), .height = height};
     const double of_one = 0.5;  // Y of each particle in a compartment of width 1
