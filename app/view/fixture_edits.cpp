@@ -11,12 +11,12 @@ namespace {
 
 constexpr double kReach = 0.5;  // of the mouse, diameters
 
-double rounded(double number) {
+double to_hundredths(double number) {
   return std::round(100.0 * number) / 100.0;
 }
 
 Vec2 rounded_place(const Vec2& place) {
-  return {rounded(place.x()), rounded(place.y())};
+  return {to_hundredths(place.x()), to_hundredths(place.y())};
 }
 
 bool is_on(const Partition& partition, const Vec2& place) {
@@ -25,7 +25,7 @@ bool is_on(const Partition& partition, const Vec2& place) {
 
 // The part of a line between two places. An end near a side of the box is on it.
 Hole part_between(double from, double to, double side) {
-  double low = rounded(std::min(from, to)), high = rounded(std::max(from, to));
+  double low = to_hundredths(std::min(from, to)), high = to_hundredths(std::max(from, to));
   if (low < kReach) low = 0.0;
   if (high > side - kReach) high = side;
   return {{low}, {high}};
@@ -42,14 +42,14 @@ Scene with_ball(Scene scene, const Vec2& from, const Vec2& to) {
     if ((from - centre).norm() < kRim * ball.radius) {
       ball.centre = rounded_place(centre + to - from);
     } else {
-      ball.radius = std::max(kLeast, rounded((to - centre).norm()));
+      ball.radius = std::max(kLeast, to_hundredths((to - centre).norm()));
     }
     return scene;
   }
   Obstacle& ball = scene.obstacles.emplace_back();
   ball.centre = rounded_place(from);
   ball.from = ball.to = Vec2::Zero();
-  ball.radius = std::max(kLeast, rounded((to - from).norm()));
+  ball.radius = std::max(kLeast, to_hundredths((to - from).norm()));
   return scene;
 }
 
@@ -61,13 +61,13 @@ Scene with_wall(Scene scene, const Vec2& from, const Vec2& to) {
     if (static_cast<int>(wall.axis) == across) {
       wall.holes.push_back(part_between(from[along], to[along], scene.box[along]));
     } else {
-      wall.position = rounded(to[static_cast<int>(wall.axis)]);
+      wall.position = to_hundredths(to[static_cast<int>(wall.axis)]);
     }
     return scene;
   }
   Partition& wall = scene.partitions.emplace_back();
   wall.axis = static_cast<Axis>(across);
-  wall.position = rounded(from[across]);
+  wall.position = to_hundredths(from[across]);
   const double side = scene.box[along];
   const Hole closed = part_between(from[along], to[along], side);
   if (scene.periodic(along)) return scene;
