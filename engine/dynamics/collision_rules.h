@@ -48,15 +48,14 @@ template <int D>
 Departure<D> wall_outcome(const Model<D>& model, const Wall& law, const Vec<D>& normal,
                           const WallState& wall, const Arrival<D>& arrival, bool elastic);
 
-/// A particle that has hit the free piston, and the momentum along the piston's axis that the
-/// piston has lost.
+/// Result of a hit on the free piston.
 template <int D>
 struct PistonOutcome {
-  Departure<D> departure;
-  double momentum = 0.0;
+  Departure<D> departure;  ///< of the particle
+  double momentum = 0.0;   ///< along the axis, lost by the piston
 };
 
-/// Outcome for a particle that touches the free piston, which moves at a velocity (theory 13).
+/// Outcome for a particle that touches the free piston, which moves at a velocity (theory 13.8).
 /// `side` is 1 for a particle above the piston along its axis, and -1 below. `elastic` as above.
 template <int D>
 PistonOutcome<D> piston_outcome(const Model<D>& model, double side, double velocity,

@@ -46,13 +46,13 @@ class PistonMotion {
   void move_base(double shift) { flight_.time -= shift; }
   /// Replaces the flight without its contacts. gather() must follow.
   void set_flight(const PistonFlight& flight) { flight_ = flight; }
-  /// Finds the near particles and their contacts anew. `cell_of(particle)` is the cell of a
-  /// particle.
+  /// Makes the list of near particles for the present place of the piston, and predicts all events.
+  /// `cell_of(particle)` returns the cell of a particle.
   template <class CellOf>
   void gather(std::size_t particles, const CellOf& cell_of, double now);
   /// Takes a new flight or cell of a particle.
   void renew(std::uint32_t particle, const IntVec<D>& cell);
-  /// Begins another flight, at its time, and finds all contacts anew.
+  /// Replaces the flight by one that begins now, and predicts all events of the piston.
   void fly(const PistonFlight& flight);
   /// The next event.
   const Next& next() const { return next_; }

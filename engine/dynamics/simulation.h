@@ -70,7 +70,7 @@ class Simulation {
   /// The tiles; null: the gas runs as a whole on one thread.
   const Foresight<D>* foresight() const { return foresight_.get(); }
   /// Number of the tiles that run the gas now; 0: it runs as a whole.
-  std::size_t tiles() const { return in_tiles_ ? foresight_->tiles() : 0; }
+  std::size_t tiles() const { return in_tiles_ && foresight_ ? foresight_->tiles() : 0; }
 
   /// Processes every event up to and at a simulation time, timers included, and returns true. Halts
   /// earlier and returns false once the run has had `collisions` with particles and walls, or

@@ -57,6 +57,27 @@ kind = "static"
 kind = "static"
 )";
 
+// The table of the piston is the last one.
+const std::string kMixture = R"(
+[box]
+size = [20.0, 8.0]
+[particles]
+restitution = 0.95
+[[species]]
+name = "small"
+count = 20
+count_left = 15
+diameter = 0.6
+[[species]]
+name = "large"
+count = 6
+count_left = 1
+diameter = 1.4
+[piston]
+position = 9.0
+mass = 4.0
+)";
+
 const std::string kFloor = R"(
 [walls.bottom]
 kind = "sawtooth"
@@ -102,50 +123,15 @@ TEST_CASE("Free piston: a gas of spheres equals the reference") {
 }
 
 TEST_CASE("Free piston: each species meets its law") {
-  compare_piston<2>(R"(
-[box]
-size = [20.0, 8.0]
-[particles]
-restitution = 0.95
-[[species]]
-name = "small"
-count = 20
-count_left = 15
-diameter = 0.6
-[[species]]
-name = "large"
-count = 6
-count_left = 1
-diameter = 1.4
-[piston]
-position = 9.0
-mass = 4.0
-thickness = 0.2
-species = { large = { restitution = 0.5, friction = 0.2 } }
-)" + kEnds,
+  compare_piston<2>(kMixture +
+                        "thickness = 0.2\nspecies = { large = { restitution = 0.5, "
+                        "friction = 0.2 } }\n" +
+                        kEnds,
                     3000);
 }
 
 TEST_CASE("Free piston: species start on their sides") {
-  const Scene scene = parse_scene(R"(
-[box]
-size = [20.0, 8.0]
-[[species]]
-name = "small"
-count = 20
-count_left = 15
-diameter = 0.6
-[[species]]
-name = "large"
-count = 6
-count_left = 1
-diameter = 1.4
-[piston]
-position = 9.0
-mass = 4.0
-)" + kEnds,
-                                  "");
-  const State<2> state = start_state<2>(scene, 7);
+  const State<2> state = start_state<2>(parse_scene(kMixture + kEnds, ""), 7);
   std::array<int, 2> left{};
   for (std::size_t i = 0; i < state.positions.size(); ++i) {
     if (state.positions[i].x() < 9.0) ++left[state.grains[i].species];
