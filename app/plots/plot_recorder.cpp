@@ -10,11 +10,22 @@
 
 namespace clatter {
 
+// What a film measures for its plots: of the observables those that it shows.
+static Measure plotted_part(Measure measure, const std::vector<FilmPlot>& plots) {
+  measure.observables.clear();
+  for (const FilmPlot plot : plots) {
+    const auto kind = observable_of(plot);
+    if (kind && !measure.observes(*kind)) measure.observables.push_back(*kind);
+  }
+  return measure;
+}
+
 template <int D>
 PlotRecorder<D>::PlotRecorder(ScheduledRun<D>& run, const FilmPlots& film, const std::string& saved)
     : run_(run),
       axis_(static_cast<int>(film.axis) < D ? film.axis : Axis::X),
       has_profile_(std::ranges::any_of(film.plots, is_profile)),
+      plotted_(plotted_part(run.laws().measure, film.plots)),
       spacing_(film.speed / History::kPerSecond),
       totals_(run.simulation()),
       own_(run.simulation(), *this),
@@ -23,7 +34,7 @@ PlotRecorder<D>::PlotRecorder(ScheduledRun<D>& run, const FilmPlots& film, const
   frame_.speed = film.speed;
   if (!saved.empty() && resume(saved)) return;
   next_ = static_cast<std::uint64_t>(run.simulation().time() / spacing_) + 1;
-  begin_profile();
+  begin_averages();
 }
 
 // The laws that samples belong to. Profiles also depend on the view and on the axis.
@@ -33,20 +44,25 @@ std::string PlotRecorder<D>::laws() const {
 }
 
 template <int D>
-void PlotRecorder<D>::begin_profile() {
+void PlotRecorder<D>::begin_averages() {
   profile_.reset();
-  if (has_profile_) profile_.emplace(run_.simulation(), profile_window(), axis_);
+  observables_.reset();
+  if (has_profile_) profile_.emplace(run_.simulation(), window(), axis_);
+  if (!plotted_.observables.empty()) observables_.emplace(run_.simulation(), plotted_, window());
 }
 
 // Returns false if the saved samples belong to other laws or plots.
 template <int D>
 bool PlotRecorder<D>::resume(const std::string& saved) {
   constexpr const char* kFile = "--resume";
-  std::string saved_laws, samples, profile;
+  std::string saved_laws, samples, profile, observables;
   ArchiveReader reader(saved, kFile);
-  reader(saved_laws, samples, profile);
+  reader(saved_laws, samples, profile, observables);
   reader.finish();
-  if (saved_laws != laws() || profile.empty() == has_profile_) return false;
+  if (saved_laws != laws() || profile.empty() == has_profile_ ||
+      observables.empty() != plotted_.observables.empty()) {
+    return false;
+  }
   Simulation<D>& simulation = run_.simulation();
   ArchiveReader of_samples(samples, kFile);
   visit(of_samples);
@@ -54,8 +70,13 @@ bool PlotRecorder<D>::resume(const std::string& saved) {
   of_samples.require(!simulation.is_overdue(0.0, spacing_, next_));
   if (has_profile_) {
     ArchiveReader of_profile(profile, kFile);
-    profile_.emplace(simulation, profile_window(), axis_, of_profile);
+    profile_.emplace(simulation, window(), axis_, of_profile);
     of_profile.finish();
+  }
+  if (!observables.empty()) {
+    ArchiveReader of_observables(observables, kFile);
+    observables_.emplace(simulation, plotted_, window(), of_observables);
+    of_observables.finish();
   }
   frame_.snapshot = snapshot_of(simulation);
   return true;
@@ -68,7 +89,7 @@ void PlotRecorder<D>::before_laws(const Model<D>&) {
 
 template <int D>
 void PlotRecorder<D>::on_laws() {
-  begin_profile();
+  begin_averages();
   frame_.scene.reset();
 }
 
@@ -103,16 +124,19 @@ PlottedGas PlotRecorder<D>::gas() {
   frame_.scene = scene();
   history_.predict(frame_.scene);
   if (profile_) frame_.profile = profile_->profile();
+  if (observables_) frame_.observables = observables_->tables(true);
   return {&history_, &frame_, ""};
 }
 
 template <int D>
 std::string PlotRecorder<D>::save() {
-  ArchiveWriter samples, profile, all;
+  ArchiveWriter samples, profile, observables, all;
   visit(samples);
   if (profile_) profile(*profile_);
+  if (observables_) observables_->save(observables);
   std::string of_laws = laws(), of_samples = samples.written(), of_profile = profile.written();
-  all(of_laws, of_samples, of_profile);
+  std::string of_observables = observables.written();
+  all(of_laws, of_samples, of_profile, of_observables);
   return all.written();
 }
 

@@ -9,6 +9,7 @@
 
 #include "app/plots/history.h"
 #include "app/plots/plots.h"
+#include "engine/live/live_observables.h"
 #include "engine/live/live_profile.h"
 #include "engine/measure/totals.h"
 #include "engine/run/scheduled_run.h"
@@ -42,12 +43,12 @@ class PlotRecorder final : private Observer<D> {
 
  private:
   double next_time() const { return static_cast<double>(next_) * spacing_; }
-  double profile_window() const { return run_.laws().view.window / kWindowParts; }
+  double window() const { return run_.laws().view.window / kWindowParts; }
   std::string laws() const;
   std::shared_ptr<const Scene> scene() const;
   void before_laws(const Model<D>& next) override;
   void on_laws() override;
-  void begin_profile();
+  void begin_averages();
   bool resume(const std::string& saved);
   void take_sample();
   template <class Archive>
@@ -58,12 +59,14 @@ class PlotRecorder final : private Observer<D> {
   ScheduledRun<D>& run_;
   Axis axis_;
   bool has_profile_;
+  Measure plotted_;         // has the observables that are plotted
   double spacing_;          // shortest time between samples
   std::uint64_t next_ = 1;  // number of the next sample; sample 0 is at time 0
   Tally tally_ = empty_tally(D);
   History history_;
   Totals<D> totals_;
-  std::optional<LiveProfile<D>> profile_;  // absent: no plot needs it
+  std::optional<LiveProfile<D>> profile_;          // absent: no plot needs it
+  std::optional<LiveObservables<D>> observables_;  // absent: no plot needs them
   Frame frame_;                            // of the last sample
   Observation<D> own_, of_totals_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -10,7 +11,9 @@
 #include "app/plots/divider_plots.h"
 #include "app/plots/plot_colours.h"
 #include "app/plots/species_plots.h"
+#include "app/plots/table_plots.h"
 #include "app/results/theory_json.h"
+#include "engine/scene/enum_names.h"
 #include "engine/text.h"
 #include "render/label.h"
 
@@ -401,6 +404,18 @@ static std::optional<LivePlot> plot_of_divider(FilmPlot which, const PlottedGas&
   return compartments_plot(samples, scene);
 }
 
+// A plot of an observable has the name of its table.
+static std::optional<LivePlot> plot_of_observable(FilmPlot which, const PlottedGas& gas,
+                                                  const ThemeColours& theme) {
+  if (!gas.frame->observables) return std::nullopt;
+  const auto& tables = *gas.frame->observables;
+  const auto table = std::ranges::find(tables, name_of(which, kFilmPlots), &ResultTable::name);
+  if (table == tables.end()) return std::nullopt;
+  LivePlot plot = table_plots(*table, *gas.frame->scene, *gas.history, theme).front();
+  plot.title.front() = static_cast<char>(std::toupper(plot.title.front()));
+  return plot;
+}
+
 static LecturePlot kind_of(FilmPlot which) {
   switch (which) {
     case FilmPlot::Temperature:
@@ -413,6 +428,8 @@ static LecturePlot kind_of(FilmPlot which) {
     case FilmPlot::Mixing:
     case FilmPlot::Compartments:
     case FilmPlot::Piston:
+    case FilmPlot::MeanSquaredDisplacement:
+    case FilmPlot::VelocityAutocorrelation:
       break;
     case FilmPlot::DensityProfile:
     case FilmPlot::TemperatureProfile:
@@ -433,6 +450,10 @@ std::optional<LivePlot> film_plot(FilmPlot which, const std::vector<PlottedGas>&
   if (which == FilmPlot::Compartments || which == FilmPlot::Piston) {
     return joined_plot(gases,
                        [&](const PlottedGas& gas) { return plot_of_divider(which, gas, theme); });
+  }
+  if (observable_of(which)) {
+    return joined_plot(
+        gases, [&](const PlottedGas& gas) { return plot_of_observable(which, gas, theme); });
   }
   const LecturePlot kind = kind_of(which);
   const auto first = static_cast<int>(FilmPlot::DensityProfile);

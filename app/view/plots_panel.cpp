@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "app/film/compared_scenes.h"
+#include "app/plots/table_plots.h"
 #include "app/view/controls.h"
 #include "app/view/style.h"
-#include "app/view/table_plots.h"
 #include "engine/scene/enum_names.h"
 #include "engine/text.h"
 #include "render/typography/fonts.h"

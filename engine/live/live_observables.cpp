@@ -13,12 +13,38 @@ LiveObservables<D>::LiveObservables(Simulation<D>& simulation, const Measure& me
       observables_(simulation, measure_),
       timers_(simulation) {
   observables_.start();
+  watch();
+}
+
+template <int D>
+LiveObservables<D>::LiveObservables(Simulation<D>& simulation, const Measure& measure,
+                                    double window, ArchiveReader& saved)
+    : measure_(measure),
+      start_(0.0),
+      window_(window),
+      observables_(simulation, measure_),
+      timers_(simulation) {
+  saved(start_, windows_);
+  saved.require(!simulation.is_overdue(start_ + window_, window_, windows_));
+  observables_.restore(saved, start_);
+  watch();
+}
+
+template <int D>
+void LiveObservables<D>::watch() {
   observables_.add_timers(timers_, start_);
   // A sample at the end of a window belongs to it.
-  timers_.every(start_ + window_, window_, [this](double) {
+  const auto close = [this](double) {
     observables_.close_window();
     ++windows_;
-  });
+  };
+  timers_.every(start_ + window_, window_, close, windows_);
+}
+
+template <int D>
+void LiveObservables<D>::save(ArchiveWriter& io) {
+  io(start_, windows_);
+  observables_.save(io);
 }
 
 template <int D>

@@ -86,7 +86,7 @@ inline constexpr std::array<Named<OverlayPart>, 9> kOverlayParts = {
      {"scale_bar", OverlayPart::ScaleBar},
      {"captions", OverlayPart::Captions}}};
 
-inline constexpr std::array<Named<FilmPlot>, 12> kFilmPlots = {
+inline constexpr std::array<Named<FilmPlot>, 14> kFilmPlots = {
     {{"temperature", FilmPlot::Temperature},
      {"energy", FilmPlot::Energy},
      {"velocities", FilmPlot::Velocities},
@@ -94,6 +94,8 @@ inline constexpr std::array<Named<FilmPlot>, 12> kFilmPlots = {
      {"mixing", FilmPlot::Mixing},
      {"compartments", FilmPlot::Compartments},
      {"piston", FilmPlot::Piston},
+     {"mean_squared_displacement", FilmPlot::MeanSquaredDisplacement},
+     {"velocity_autocorrelation", FilmPlot::VelocityAutocorrelation},
      {"density_profile", FilmPlot::DensityProfile},
      {"temperature_profile", FilmPlot::TemperatureProfile},
      {"stress_profile", FilmPlot::StressProfile},

@@ -31,6 +31,13 @@ enum class ObservableKind : std::uint8_t {
   Mixing                      ///< how well the species of a mixture are mixed
 };
 
+/// The observable whose table a plot shows; absent: none.
+constexpr std::optional<ObservableKind> observable_of(FilmPlot plot) {
+  if (plot == FilmPlot::MeanSquaredDisplacement) return ObservableKind::MeanSquaredDisplacement;
+  if (plot == FilmPlot::VelocityAutocorrelation) return ObservableKind::VelocityAutocorrelation;
+  return std::nullopt;
+}
+
 /// Settings of g(r).
 struct RadialDistributionSettings {
   double interval = 1.0;  ///< time between samples, > 0

@@ -133,10 +133,12 @@ enum class FilmPlot {
   Temperature,
   Energy,
   Velocities,
-  SpeciesTemperature,  ///< of mixtures only
-  Mixing,              ///< of mixtures only
-  Compartments,        ///< of a scene with a divider, see divider_of()
-  Piston,              ///< of a scene with a free piston
+  SpeciesTemperature,       ///< of mixtures only
+  Mixing,                   ///< of mixtures only
+  Compartments,             ///< of a scene with a divider, see divider_of()
+  Piston,                   ///< of a scene with a free piston
+  MeanSquaredDisplacement,  ///< with this observable only
+  VelocityAutocorrelation,  ///< with this observable only
   DensityProfile,
   TemperatureProfile,
   StressProfile,

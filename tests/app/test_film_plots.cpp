@@ -134,8 +134,58 @@ TEST_CASE("Film plots: their values are those of the window at the same times") 
   CHECK(history.samples().size() == 120);
 }
 
+// The same gas with plots of its displacements and velocity correlations.
+static Scene diffusing_gas() {
+  Scene scene = changing_gas();
+  scene.measure.observables = {ObservableKind::Collisions, ObservableKind::MeanSquaredDisplacement,
+                               ObservableKind::VelocityAutocorrelation};
+  scene.measure.mean_squared_displacement = {.interval = 0.07, .longest = 0.7, .lags = 5};
+  scene.measure.velocity_autocorrelation = {.interval = 0.07, .longest = 0.7, .lags = 4};
+  scene.view.plots = {FilmPlot::MeanSquaredDisplacement, FilmPlot::VelocityAutocorrelation};
+  return scene;
+}
+
+TEST_CASE("Film plots: displacements and velocity correlations are those of the window") {
+  const Scene scene = diffusing_gas();
+  RecordedRun film(scene);
+  film.until(2.6);
+  const auto window = watched_run(scene, 1);
+  window->show_profile(Profiled::Fields, Axis::Y);
+  window->run_until(2.6, kNoLimit, kNoLimit);
+  Frame frame;
+  frame.run = 1;
+  window->fill(frame, true);
+  const History history;
+  check_same(film.plots(), plots_of_film(scene, {&history, &frame, ""}), 0.0);
+
+  // Flights are straight between collisions, so short displacements are those of free flight.
+  const LivePlot moved = film.plots().at(0), velocities = film.plots().at(1);
+  CHECK(moved.curves.at(0).name == "total");
+  CHECK(velocities.curves.at(0).name == "mean");
+  const Vec2 first = moved.curves[0].points.at(1), zero = velocities.curves[0].points.at(0);
+  CHECK(first.x() == doctest::Approx(0.07));
+  CHECK(zero.x() == 0.0);
+  CHECK(first.y() == doctest::Approx(2.0 * zero.y() * 0.07 * 0.07).epsilon(0.1));
+
+  // Two gases: a curve for each.
+  const PlottedGas one = film.recorder->gas();
+  const auto compared =
+      film_plot(FilmPlot::MeanSquaredDisplacement,
+                {{one.history, one.frame, "A"}, {one.history, one.frame, "B"}}, kDarkTheme);
+  REQUIRE(compared);
+  REQUIRE(compared->curves.size() == 2);
+  CHECK(compared->curves[1].name == "B");
+  CHECK(compared->curves[1].points == moved.curves[0].points);
+}
+
 TEST_CASE("Film plots: they do not change the run, and continue from a checkpoint to the bit") {
-  const Scene scene = changing_gas();
+  Scene scene;
+  SUBCASE("profiles") {
+    scene = changing_gas();
+  }
+  SUBCASE("observables") {
+    scene = diffusing_gas();
+  }
   RecordedRun whole(scene), begun(scene);
   whole.until(8.0);
   ScheduledRun<2> plain(scene, 1);
@@ -173,6 +223,9 @@ TEST_CASE("Film plots: other laws or another axis restart the samples") {
   check_restarts(other);
   other = scene;
   other.view.plots = {FilmPlot::Temperature};
+  check_restarts(other);
+  other = diffusing_gas();
+  other.changes.clear();
   check_restarts(other);
 }
 

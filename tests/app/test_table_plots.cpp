@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "app/plots/table_plots.h"
 #include "app/view/plots_panel.h"
-#include "app/view/table_plots.h"
 #include "engine/scene/scene_file.h"
 #include "tests/app/plot_checks.h"
 

@@ -1,4 +1,4 @@
-#include "app/view/table_plots.h"
+#include "app/plots/table_plots.h"
 
 #include <fmt/format.h>
 
@@ -212,6 +212,7 @@ std::vector<LivePlot> table_plots(const ResultTable& table, const Scene& scene,
     curve.colour = species               ? colours[*species]
                    : axis < kAxes.size() ? kAxisColours[axis]
                                          : theme.text;
+    curve.compared = is_correlation(table) && column.name == whole_column(table);
     plots[plot].curves.push_back(std::move(curve));
     if (!whole) continue;
     auto expected =
