@@ -16,45 +16,37 @@
 
 namespace clatter {
 
-namespace {
-
+// A run that goes ahead of another one.
 template <int D>
-class PreviewRun final : public SoundPreview {
- public:
-  PreviewRun(const ScheduledRun<D>& run, const Scene& scene)
-      : ahead_(scene, run.seed(), run.simulation().save()), clicks_(ahead_.simulation()) {}
+struct RunAhead {
+  RunAhead(const ScheduledRun<D>& run, const Scene& scene)
+      : run(scene, run.seed(), run.simulation().save()), clicks(this->run.simulation()) {}
 
-  bool run_until(double time) override {
-    return ahead_.run_until(time, kNoLimit, kNoLimit, interrupted);
-  }
-  std::vector<Click> take_clicks() override { return clicks_.take(); }
-
- private:
-  ScheduledRun<D> ahead_;
-  ClickRecorder<D> clicks_;
+  ScheduledRun<D> run;
+  ClickRecorder<D> clicks;
 };
 
-}  // namespace
-
 template <int D>
-std::unique_ptr<SoundPreview> preview_of(const ScheduledRun<D>& run, const Scene& scene) {
-  return std::make_unique<PreviewRun<D>>(run, scene);
+SoundPreview preview_of(const ScheduledRun<D>& run, const Scene& scene) {
+  return [ahead = std::make_shared<RunAhead<D>>(run, scene)](double time, ClickSums& sums) {
+    if (!ahead->run.run_until(time, kNoLimit, kNoLimit, interrupted)) return false;
+    sums.add(ahead->clicks.take());
+    return true;
+  };
 }
 
-template std::unique_ptr<SoundPreview> preview_of<2>(const ScheduledRun<2>&, const Scene&);
-template std::unique_ptr<SoundPreview> preview_of<3>(const ScheduledRun<3>&, const Scene&);
+template SoundPreview preview_of<2>(const ScheduledRun<2>&, const Scene&);
+template SoundPreview preview_of<3>(const ScheduledRun<3>&, const Scene&);
 
-SoundScale sound_scale(const std::vector<std::unique_ptr<SoundPreview>>& gases,
-                       const FrameTimes& times) {
+SoundScale sound_scale(const std::vector<SoundPreview>& gases, const FrameTimes& times) {
   constexpr double kSeconds = 2.0;
   constexpr long kManyClicks = 100'000;  // a dense gas has them within a frame
   ClickSums sums;
   double seconds = 0.0;
   try {
     for (long frame = 1; frame < times.count; ++frame) {
-      for (const auto& gas : gases) {
-        if (!gas->run_until(times.of(frame))) return sums.scale(seconds);
-        sums.add(gas->take_clicks());
+      for (const SoundPreview& gas : gases) {
+        if (!gas(times.of(frame), sums)) return sums.scale(seconds);
       }
       seconds = static_cast<double>(frame) / times.fps;
       if (sums.count() >= kManyClicks || (sums.count() > 0 && seconds >= kSeconds)) break;
@@ -124,9 +116,7 @@ class CompanionRun final : public Companion {
   Snapshot snapshot() override { return run_->snapshot(); }
   void listen() override { clicks_.emplace(run_->simulation()); }
   std::vector<Click> take_clicks() override { return clicks_->take(); }
-  std::unique_ptr<SoundPreview> preview() const override {
-    return preview_of(*run_, compared_.scene);
-  }
+  SoundPreview preview() const override { return preview_of(*run_, compared_.scene); }
   RangeEnds first_extents(double last) const override {
     return clatter::first_extents(*run_, compared_.scene, view_, exposure_, last);
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,25 +23,17 @@
 
 namespace clatter {
 
-/// A copy of a gas that runs ahead for its clicks.
-class SoundPreview {
- public:
-  virtual ~SoundPreview() = default;
-
-  /// Runs to a simulation time. Returns false at an interrupt. Throws PhysicalStop.
-  virtual bool run_until(double time) = 0;
-  /// The clicks since the last call, as ClickRecorder::take().
-  virtual std::vector<Click> take_clicks() = 0;
-};
+/// A copy of a gas that runs ahead to a simulation time. Adds its clicks since the last call, and
+/// returns false at an interrupt. Throws PhysicalStop.
+using SoundPreview = std::function<bool(double time, ClickSums& sums)>;
 
 /// A preview from the present time of a run of `scene`. The run stays where it is.
 template <int D>
-std::unique_ptr<SoundPreview> preview_of(const ScheduledRun<D>& run, const Scene& scene);
+SoundPreview preview_of(const ScheduledRun<D>& run, const Scene& scene);
 
 /// The scale of the first seconds of a film that have a click, over all of its gases. Ends early at
 /// an interrupt and where a gas stops.
-SoundScale sound_scale(const std::vector<std::unique_ptr<SoundPreview>>& gases,
-                       const FrameTimes& times);
+SoundScale sound_scale(const std::vector<SoundPreview>& gases, const FrameTimes& times);
 
 /// Draws a gas into its cell of the pictures of a film.
 class FilmCell {
@@ -87,7 +80,7 @@ class Companion {
   /// The clicks since the last call, after listen().
   virtual std::vector<Click> take_clicks() = 0;
   /// As preview_of().
-  virtual std::unique_ptr<SoundPreview> preview() const = 0;
+  virtual SoundPreview preview() const = 0;
   /// As first_extents().
   virtual RangeEnds first_extents(double last) const = 0;
   /// As Simulation::state_hash().

@@ -328,7 +328,7 @@ void Film<D>::move_ranges(const std::vector<Snapshot>& snapshots) {
 template <int D>
 bool Film<D>::choose_sound(Progress& progress) {
   if (!state_.sound || state_.sound->synthesiser) return true;
-  std::vector<std::unique_ptr<SoundPreview>> gases;
+  std::vector<SoundPreview> gases;
   gases.push_back(preview_of(run_.scheduled(), scene_));
   for (const auto& companion : companions_) gases.push_back(companion->preview());
   const SoundScale scale = sound_scale(gases, state_.times);
