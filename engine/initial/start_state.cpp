@@ -401,7 +401,7 @@ class StartWork : public StartMaker::Work {
     if (is_from_file()) return;
     grains_ = grains_of(scene_);
     if (starts_divided(scene_)) {
-      place_beside(*divider_of(scene_));
+      place_beside_divider();
       return;
     }
     parts_.emplace_back(scene_.start_room<D>(), scene_.clear_corner(), scene_.particles.count,
@@ -453,8 +453,7 @@ class StartWork : public StartMaker::Work {
   // The two sides of a divider are rooms of their own. The upper one has other random numbers than
   // the lower one of any seed in use.
   static constexpr std::uint64_t kOtherSide = 0x9e3779b97f4a7c15u;
-  void place_beside(const Divider& divider) {
-    const int axis = divider.axis;
+  void place_beside_divider() {
     const std::size_t kinds = std::max<std::size_t>(scene_.species.size(), 1);
     std::vector<int> below(kinds);
     for (std::size_t k = 0; k < kinds; ++k) below[k] = count_left(scene_, k);
@@ -464,34 +463,14 @@ class StartWork : public StartMaker::Work {
       of_side_[is_below ? 0 : 1].push_back(i);
       grains[is_below ? 0 : 1].push_back(grains_[i]);
     }
-    const Vec<D> low = scene_.clear_corner(), high = low + Vec<D>(scene_.clear_box());
-    const double half = 0.5 * divider.thickness;
-    if (divider.position - half < low[axis] || divider.position + half > high[axis]) {
-      throw UserError({}, "the motion of a wall would reach the piston or partition at the start",
-                      "place it between " + number_text(low[axis] + half) + " and " +
-                          number_text(high[axis] - half));
-    }
     for (const int side : {0, 1}) {
-      Room<D> room = scene_.start_room<D>();
-      Vec<D> corner = low;
-      const double face = divider.position + (side == 0 ? -0.5 : 0.5) * divider.thickness;
-      if (side == 1) corner[axis] = face;
-      room.box[axis] = (side == 0 ? face : high[axis]) - corner[axis];
-      room.walled[axis] = true;
+      const StartSide<D> place = start_side<D>(scene_, side);
       const int count = !grains_.empty() ? static_cast<int>(grains[side].size())
                         : side == 0      ? below[0]
                                          : scene_.particles.count - below[0];
-      if (count > 0 && (room.box[axis] <= room.diameter ||
-                        (grains_.empty() && lattice_capacity(room) < count))) {
-        throw UserError({},
-                        std::to_string(count) + " particles do not fit " +
-                            (side == 0 ? "below" : "above") + " the " +
-                            (scene_.piston ? "piston" : "partition"),
-                        "move it, change count_left, or give fewer particles");
-      }
       if (count == 0) continue;
-      parts_.emplace_back(room, corner, count, grains[side], scene_.particles.start.layout,
-                          start_fixtures<D>(scene_, corner),
+      parts_.emplace_back(place.room, place.corner, count, grains[side],
+                          scene_.particles.start.layout, start_fixtures<D>(scene_, place.corner),
                           seed_ ^ kOtherSide * static_cast<std::uint64_t>(side), stop_);
       sides_.push_back(side);
     }

@@ -1,11 +1,14 @@
 #include "engine/scene/obstacle_checks.h"
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "engine/dimension.h"
 #include "engine/error.h"
 #include "engine/laws/fixture.h"
+#include "engine/physics/lattice.h"
+#include "engine/physics/theory.h"
 #include "engine/scene/enum_names.h"
 #include "engine/scene/scene_document.h"
 #include "engine/text.h"
@@ -289,8 +292,7 @@ static void check_count_left(const Scene& scene, const toml::table& root, const 
   }
 }
 
-void check_piston(const Scene& scene, const toml::table& root, const std::string& file) {
-  check_count_left(scene, root, file);
+static void check_piston(const Scene& scene, const toml::table& root, const std::string& file) {
   if (!scene.piston) return;
   const Piston& piston = *scene.piston;
   const auto refuse = [&](const std::string& key, const std::string& problem,
@@ -328,6 +330,61 @@ void check_piston(const Scene& scene, const toml::table& root, const std::string
                      species.str(), known);
     }
   }
+}
+
+// Whether the particles of one side of a divider may have room there. A lattice decides for equal
+// particles, the closest packing of equal ones for a mixture.
+template <int D>
+static bool may_fit(const Scene& scene, const Room<D>& room, const std::vector<int>& counts) {
+  if (std::ranges::all_of(counts, [](int count) { return count == 0; })) return true;
+  if (room.box.minCoeff() <= room.diameter) return false;
+  if (scene.species.empty()) return lattice_capacity(room) >= counts[0];
+  double filled = 0.0;
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    filled += counts[k] * packing_fraction(D, scene.species[k].mean_power(D) / room.box.prod());
+  }
+  return filled <= closest_packing(D);
+}
+
+// Throws if the particles on one side of a divider have no room at the start.
+template <int D>
+static void check_sides(const Scene& scene, const Place& place) {
+  const Divider divider = *divider_of(scene);
+  const double half = 0.5 * divider.thickness;
+  const double low = scene.clear_corner()[divider.axis] + half;
+  const double high = low + scene.clear_box()[divider.axis] - divider.thickness;
+  if (divider.position < low || divider.position > high) {
+    throw UserError(place, "the motion of a wall would reach this place at the start",
+                    "choose a place between " + number_text(low) + " and " + number_text(high));
+  }
+  for (const int side : {0, 1}) {
+    std::vector<int> counts;
+    for (std::size_t k = 0; k < std::max<std::size_t>(scene.species.size(), 1); ++k) {
+      const int left = count_left(scene, k);
+      const int count = scene.species.empty() ? scene.particles.count : scene.species[k].count;
+      counts.push_back(side == 0 ? left : count - left);
+    }
+    if (may_fit<D>(scene, start_side<D>(scene, side).room, counts)) continue;
+    const int count = std::accumulate(counts.begin(), counts.end(), 0);
+    throw UserError(place,
+                    counted(static_cast<std::size_t>(count), "particle") + " cannot start " +
+                        (side == 0 ? "below" : "above") + " the " +
+                        (scene.piston ? "piston" : "partition"),
+                    "move it, change count_left, or give fewer particles");
+  }
+}
+
+void check_divider(const Scene& scene, const toml::table& root, const std::string& file) {
+  check_count_left(scene, root, file);
+  check_piston(scene, root, file);
+  if (!starts_divided(scene) || scene.particles.start.layout == Layout::File) return;
+  Place place = place_of(root, "piston.position", file);
+  for (std::size_t k = 0; k < scene.partitions.size() && !scene.piston; ++k) {
+    if (scene.periodic(static_cast<int>(scene.partitions[k].axis))) continue;
+    place = Item(root, "partition", k, file).place("position");
+    break;
+  }
+  with_dimension(scene.dimension(), [&](auto dimension) { check_sides<dimension>(scene, place); });
 }
 
 }  // namespace clatter

@@ -12,8 +12,8 @@ namespace clatter {
 /// another, or names a species that the scene lacks.
 void check_fixtures(const Scene& scene, const toml::table& root, const std::string& file);
 
-/// Throws UserError about a piston that cannot slide in the box, or a number of particles beside it
-/// or beside a partition that is impossible.
-void check_piston(const Scene& scene, const toml::table& root, const std::string& file);
+/// Throws UserError about a piston that cannot slide in the box, or numbers of particles beside it
+/// or a partition that have no room there.
+void check_divider(const Scene& scene, const toml::table& root, const std::string& file);
 
 }  // namespace clatter

@@ -218,6 +218,23 @@ int count_left(const Scene& scene, std::size_t species) {
 }
 
 template <int D>
+StartSide<D> start_side(const Scene& scene, int side) {
+  const Divider divider = *divider_of(scene);
+  StartSide<D> made{scene.clear_corner(), scene.start_room<D>()};
+  double& low = made.corner[divider.axis];
+  double& length = made.room.box[divider.axis];
+  const double high = low + length;
+  const double face = divider.position + (side == 0 ? -0.5 : 0.5) * divider.thickness;
+  if (side == 1) low = face;
+  length = (side == 0 ? face : high) - low;
+  made.room.walled[divider.axis] = true;
+  return made;
+}
+
+template StartSide<2> start_side(const Scene&, int);
+template StartSide<3> start_side(const Scene&, int);
+
+template <int D>
 Model<D> model_of(const Scene& scene, std::uint64_t seed) {
   Model<D> model;
   model.box = scene.box;

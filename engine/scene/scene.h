@@ -207,6 +207,16 @@ Room<D> Scene::start_room() const {
   return room;
 }
 
+/// The room on one side of the divider of a scene for its start, where walls move farthest in.
+template <int D>
+struct StartSide {
+  Vec<D> corner;  ///< the lower corner of the room
+  Room<D> room;
+};
+/// The lower (0) or upper (1) side of the divider. Its room may have no positive length.
+template <int D>
+StartSide<D> start_side(const Scene& scene, int side);
+
 /// The laws of a scene of D dimensions, for the random numbers of a seed.
 template <int D>
 Model<D> model_of(const Scene& scene, std::uint64_t seed);

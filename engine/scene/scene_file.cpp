@@ -137,7 +137,7 @@ Scene read_scene(const toml::table& root, const std::string& file, StartFile sta
   if (from_file) load_state(scene);
   scene.particles.count =
       scene.species.empty() ? resolve_count(input, root, file) : resolve_mixture(input, root, file);
-  check_piston(scene, root, file);
+  check_divider(scene, root, file);
   check_followed(scene, root, file);
   check_change_tables(scene, root, file);
   return scene;

@@ -18,6 +18,9 @@ TEST_CASE("Scene file: mistakes are reported with their place and a fix") {
   const std::string top = kParticles + "[walls.top]\nkind = ";
   const std::string snapshot = measure + "estimator = \"snapshot\"\n";
   const std::string start = kParticles + "[particles.start]\n";
+  const std::string divided =
+      "[box]\nsize = [10, 4]\n[walls.left]\nkind = \"static\"\n[walls.right]\nkind = "
+      "\"static\"\n[particles]\ncount = 9\n";
   const std::string captions = kParticles + "[[view.captions]]\n";
   const std::string sawtooth = "kind = \"sawtooth\"\n", fixed = "kind = \"static\"\n";
   const std::vector<Case> cases = {
@@ -139,6 +142,7 @@ TEST_CASE("Scene file: mistakes are reported with their place and a fix") {
       {view + "colour_by = \"spin\"\n", "4:1", "nothing spins"},
       {view + "colour_by = \"species\"\n", "4:1", "the particles have no species"},
       {view + "plots = [\"mixing\"]\n", "4:1", "\"mixing\" is for mixtures"},
+      {view + "plots = [\"velocity_autocorrelation\"]\n", "4:1", "a plot of an observable"},
       {view + "field = \"spin_temperature\"\n", "4:1", "nothing spins"},
       {measure + "fields = [\"density\", \"spin\"]\n", "4:1", "nothing spins"},
       // forces
@@ -165,6 +169,17 @@ TEST_CASE("Scene file: mistakes are reported with their place and a fix") {
        "4:1", "give at most 4"},
       {"[particles]\narea_fraction = 0.95\n", "2:1", "605 particles have no place"},
       {"[particles]\ncount = 2000000000\n", "2:1", "2000000000 particles have no place"},
+      // the sides of a divider: 2.4 x 4 has room for two columns of four
+      {divided + "count_left = 2\n", "9:1", "in a box that nothing divides"},
+      {divided + "count_left = 10\n[piston]\nposition = 5\nmass = 1\n", "9:1", "at most 9"},
+      {divided + "count_left = 9\n[piston]\nposition = 2.4\nmass = 1\n", "11:1",
+       "9 particles cannot start below the piston"},
+      {divided + "count_left = 0\n[piston]\nposition = 8.1\nthickness = 1\nmass = 1\n", "11:1",
+       "9 particles cannot start above the piston"},
+      {divided + "count_left = 5\n[[partition]]\nposition = 0.9\n", "11:1",
+       "5 particles cannot start below the partition"},
+      {divided + "count_left = 0\n[piston]\nposition = 10\nmass = 1\n", "11:1",
+       "not between the walls"},
   };
   for (const Case& mistake : cases) {
     CAPTURE(mistake.text);
