@@ -201,6 +201,23 @@ void write_json(const std::string& out, const nlohmann::ordered_json& result) {
   }
 }
 
+// The fixtures of a gas, or the lower and the upper face of its piston where it is now.
+template <int D>
+std::vector<Fixture<D>> shapes_in(Run<D>& run) {
+  const Simulation<D>& simulation = run.simulation();
+  const PistonFlight* flight = simulation.free_piston();
+  if (!flight) return simulation.model().fixtures;
+  Scene faces = run.scheduled().laws();
+  const Piston piston = *faces.piston;
+  const double middle = flight->at(simulation.base_time());
+  for (const double half : {-0.5 * piston.thickness, 0.5 * piston.thickness}) {
+    Partition& face = faces.partitions.emplace_back();
+    face.axis = piston.axis;
+    face.position = middle + half;
+  }
+  return fixtures_of<D>(faces);
+}
+
 // Writes each output even if another fails. Then throws the first error, with a checkpoint from
 // which the results can be written again.
 template <int D>
@@ -222,7 +239,7 @@ void write_results(const MeasureOptions& options, const nlohmann::ordered_json& 
                                  result.at("seed").dump() + ", state hash " +
                                  result.at("state_hash").get<std::string>();
       write_vtk(options.vtk, measured, origin, stop);
-      write_vtk_fixtures(options.vtk, run.simulation().model().fixtures, origin);
+      write_vtk_fixtures(options.vtk, shapes_in(run), origin);
     });
   }
   if (!options.hdf5.empty()) attempt([&] { write_hdf5(options.hdf5, result, measured, stop); });

@@ -18,8 +18,8 @@ namespace clatter {
 void write_vtk(const std::filesystem::path& folder, const Measured& measured,
                const std::string& origin, const StopRequest& stop = {});
 
-/// Writes the shapes of fixtures into the same folder, as fixtures.vtp. Without fixtures it removes
-/// this file.
+/// Writes the shapes of fixtures into the same folder, as fixtures.vtp. Without any it removes this
+/// file.
 template <int D>
 void write_vtk_fixtures(const std::filesystem::path& folder,
                         const std::vector<Fixture<D>>& fixtures, const std::string& origin);

@@ -23,9 +23,10 @@ template <int D>
 void CompartmentSeries::sample(const Simulation<D>& simulation, const AxisPlane& plane,
                                std::size_t number) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  for (auto* series : {&share_left, &temperature_left, &temperature_right}) {
+  for (auto* series : {&position, &share_left, &temperature_left, &temperature_right}) {
     series->resize(number, kNone);
   }
+  position.push_back(plane.position);
   const double now = simulation.base_time();
   const Vec<D>& gravity = simulation.model().gravity;
   const Domain<D> domain = simulation.model().domain();
@@ -83,7 +84,8 @@ CompartmentMeans compartment_means(const CompartmentSeries& series, std::size_t 
           share_distribution(shares),
           temperature(series.temperature_left),
           temperature(series.temperature_right),
-          series.share_left};
+          series.share_left,
+          series.position};
 }
 
 template std::optional<AxisPlane> compartment_plane(const Simulation<2>&);

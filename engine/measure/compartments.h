@@ -16,6 +16,7 @@ std::optional<AxisPlane> compartment_plane(const Simulation<D>& simulation);
 
 /// The compartments at regular times. A particle belongs to the one that has its centre.
 struct CompartmentSeries {
+  std::vector<double> position;           ///< of the plane that divides them
   std::vector<double> share_left;         ///< share of the particles at the lower side
   std::vector<double> temperature_left;   ///< (1/D N) sum m v^2 of the particles there; NaN: none
   std::vector<double> temperature_right;  ///< the same of the others
@@ -29,8 +30,8 @@ struct CompartmentSeries {
 /// Visits all members, in order, for checkpoints.
 template <class Archive>
 void visit(Archive& io, CompartmentSeries& series) {
-  auto& [share_left, temperature_left, temperature_right] = series;
-  io(share_left, temperature_left, temperature_right);
+  auto& [position, share_left, temperature_left, temperature_right] = series;
+  io(position, share_left, temperature_left, temperature_right);
 }
 
 /// Results of the compartments, averaged over samples. Temperatures are over the samples in which
@@ -44,6 +45,7 @@ struct CompartmentMeans {
   std::optional<Estimate> temperature_left;
   std::optional<Estimate> temperature_right;
   std::vector<double> share_left_series;  ///< at all samples, the burn-in included
+  std::vector<double> position_series;    ///< of the plane that divides them, at the same samples
 };
 
 /// The means of the samples from number `first` on, of a gas of `count` particles.

@@ -1,7 +1,9 @@
 #include <doctest/doctest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "tests/support/messages.h"
 #include "tests/support/shell.h"
@@ -34,6 +36,32 @@ measure = { burn_in = 1, duration = 2, fields = ["density"] }
                "--set 'partition=[]'")
           .code == 0);
   CHECK(!std::filesystem::exists(shell.path("maps/fixtures.vtp")));
+}
+
+// Two lines across the box. A series over t = 0, 1, 2, 3.
+TEST_CASE("VTK fixtures: a piston has its two faces, and its place over time in the result") {
+  const Shell shell;
+  shell.write("piston.toml", R"(box.size = [20, 10]
+particles.count = 6
+walls.left.kind = "static"
+walls.right.kind = "static"
+piston = { position = 8, mass = 5, thickness = 0.5, speed = 0.25 }
+measure = { burn_in = 1, duration = 2, series_interval = 1, fields = ["density"] }
+)");
+  const auto series = [&](const std::string& options) {
+    REQUIRE(shell.run("clatter measure piston.toml --out r.json --quiet " + options).code == 0);
+    return nlohmann::json::parse(shell.read("r.json"))
+        .at("piston")
+        .at("position_series")
+        .get<std::vector<double>>();
+  };
+  // It flies freely away from a particle at rest.
+  CHECK(series("--set particles.count=1 --set particles.count_left=1 "
+               "--set particles.start.temperature=0") == std::vector<double>{8.0, 8.25, 8.5, 8.75});
+  CHECK(series("--set piston.pinned=true --vtk maps") == std::vector<double>(4, 8.0));
+  const std::string text = shell.read("maps/fixtures.vtp");
+  CHECK(says(text, "NumberOfPoints=\"4\""));
+  CHECK(says(text, "NumberOfLines=\"2\""));
 }
 
 }  // namespace clatter::vtk_shapes
