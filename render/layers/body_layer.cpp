@@ -36,6 +36,20 @@ Colour lit(Colour colour, const Vec3& normal, const Eye& eye) {
           encoded_light(light * linear_light(colour.blue))};
 }
 
+// Lines across the holes of a partition that have valves.
+std::vector<std::array<Vec2, 2>> valve_lines_of(const Partition& partition) {
+  constexpr int kLines = 3;
+  std::vector<std::array<Vec2, 2>> lines;
+  for (const Hole& hole : partition.holes) {
+    if (!hole.valve) continue;
+    for (int k = 1; k <= kLines; ++k) {
+      const double place = hole.from[1] + (hole.to[1] - hole.from[1]) * k / (kLines + 1);
+      lines.push_back({Vec2(hole.from[0], place), Vec2(hole.to[0], place)});
+    }
+  }
+  return lines;
+}
+
 // Whether a face of a box is turned to the viewer.
 bool faces_viewer(const Vec3& place, const Vec3& normal, const Eye& eye) {
   if (eye.inverse_distance() == 0.0) return normal.dot(eye.axes().row(2)) > 0.0;
@@ -238,14 +252,18 @@ void BodyLayer::draw_rims(const Partition& partition, const Bodies& bodies,
                           const Snapshot& snapshot, const Projection& projection, const Eye& eye,
                           const WallColours& colours) {
   const Colour colour = mix(look_of(partition.law, colours).colour, colours.theme.text, kEdge);
-  const double width = line_width(projection);
-  std::vector<Line> lines;
-  for (const auto& [from, to] : rims_of(partition, snapshot)) {
-    const Rectangle3 rim = drawn_part(partition, bodies.region, from, to);
-    if ((rim.low.array() > rim.high.array()).any()) continue;
-    lines.push_back({place_in(rim, rim.low), place_in(rim, rim.high), width, colour});
-  }
-  lines_.draw(lines, snapshot.box, projection, eye, partition.passes.empty() ? 0.0 : 8.0 * width);
+  const double width = line_width(projection), dash = 8.0 * width;
+  const auto draw = [&](const std::vector<std::array<Vec2, 2>>& ends, double line, double dashed) {
+    std::vector<Line> lines;
+    for (const auto& [from, to] : ends) {
+      const Rectangle3 part = drawn_part(partition, bodies.region, from, to);
+      if ((part.low.array() > part.high.array()).any()) continue;
+      lines.push_back({place_in(part, part.low), place_in(part, part.high), line, colour});
+    }
+    lines_.draw(lines, snapshot.box, projection, eye, dashed);
+  };
+  draw(rims_of(partition, snapshot), width, partition.passes.empty() ? 0.0 : dash);
+  draw(valve_lines_of(partition), 0.5 * width, dash);
 }
 
 void BodyLayer::draw_partitions(const Bodies& bodies, const Snapshot& snapshot,

@@ -10,7 +10,7 @@ namespace clatter {
 
 /// Draws the fixtures of spheres. Obstacles are lit bodies with depths: balls, and boxes with
 /// edges. Partitions are translucent plates with lines around them and their holes, dashed for
-/// membranes. The patterns of the sides of the box show the laws.
+/// membranes, and dashed lines across valves. The patterns of the sides of the box show the laws.
 ///
 /// Bodies come before the spheres, so that depths hide spheres behind them. The soft edges of balls
 /// blend with these spheres, so they come after them.

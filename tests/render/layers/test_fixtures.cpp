@@ -467,6 +467,29 @@ TEST_CASE("Fixtures in space: a membrane is fainter than a solid partition") {
   CHECK(solid > 2 * membrane);
 }
 
+TEST_CASE("Fixtures in space: dashes cross a hole with a valve, and an open one is empty") {
+  Snapshot snapshot = empty_space();
+  const auto changed_pixels = [&](const Hole& hole) {
+    snapshot.partitions.clear();
+    const Image without = picture_of(snapshot);
+    snapshot.partitions = {across(Axis::Z, 10.0, {hole})};
+    const Image with = picture_of(snapshot);
+    int changed = 0;
+    for (int y = 0; y < 80; ++y) {
+      for (int x = 0; x < 80; ++x) {
+        changed += difference(pixel(with, 160 + x, 110 + y), pixel(without, 160 + x, 110 + y)) > 10;
+      }
+    }
+    return changed;
+  };
+  Hole hole{{15.0, 10.0}, {25.0, 20.0}};
+  CHECK(changed_pixels(hole) == 0);
+  hole.valve.emplace().faster_than = 1.0;
+  // Three lines of 80 pixels in the seen part, more than half of each drawn.
+  CHECK(changed_pixels(hole) > 120);
+  CHECK(changed_pixels(hole) < 700);
+}
+
 TEST_CASE("Fixtures: OpenGL ES draws them as OpenGL does") {
   Snapshot flat = empty_box(), space = empty_space();
   Obstacle triangle;
