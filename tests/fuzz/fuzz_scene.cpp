@@ -14,6 +14,7 @@
 #include <random>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/results/result_json.h"
@@ -46,13 +47,18 @@ constexpr double kSamples = 100.0;
 
 constexpr std::string_view kSetting = "#set ";
 
-// The paths of a key in settings: items of lists have the names of the species in mixture.toml.
+// The paths of a key in settings: items of lists have the names in tests/fuzz/scenes.
 std::vector<std::string> paths_of(const std::string& key) {
-  for (const std::string list : {"species.", "pair."}) {
+  const std::vector<std::pair<std::string, std::vector<std::string>>> lists = {
+      {"species.", {"a.", "b."}},
+      {"pair.", {"a.b.", "b.b."}},
+      {"obstacle.", {"disk.", "wedge."}},
+      {"partition.", {"wall."}}};
+  for (const auto& [list, names] : lists) {
     if (!key.starts_with(list)) continue;
-    const std::string rest = key.substr(list.size());
-    if (list == "pair.") return {"pair.a.b." + rest, "pair.b.b." + rest};
-    return {"species.a." + rest, "species.b." + rest};
+    std::vector<std::string> paths;
+    for (const std::string& name : names) paths.push_back(list + name + key.substr(list.size()));
+    return paths;
   }
   return {key};
 }
@@ -100,12 +106,19 @@ std::string extreme_puffs(std::minstd_rand& random) {
          extreme_number(random) + "] } }]";
 }
 
+// A list of holes of a partition, one of them with a valve, or of corners of a polygon.
+std::string extreme_holes(std::minstd_rand& random) {
+  if (random() % 2) return "[" + extreme_list(random) + ", [1, 2], " + extreme_list(random) + "]";
+  return "[{ from = [" + extreme_number(random) + "], to = [" + extreme_number(random) +
+         "] }, { from = [1], to = [3], valve = { faster_than = " + extreme_number(random) + " } }]";
+}
+
 std::string extreme_value(std::minstd_rand& random) {
   constexpr std::array<const char*, 20> kWords = {
       "static",   "driven", "thermal",  "sawtooth",  "sinusoidal", "exact",  "snapshot",
       "gaussian", "box",    "lattice",  "random",    "auto",       "locked", "speed",
       "spin",     "none",   "velocity", "stress_xy", "light",      "x"};
-  switch (random() % 8) {
+  switch (random() % 10) {
     case 0:
       return kWords[random() % kWords.size()];
     case 1:
@@ -116,6 +129,10 @@ std::string extreme_value(std::minstd_rand& random) {
       return "[{ time = " + extreme_number(random) +
              ", set = { 'particles.restitution' = " + extreme_number(random) +
              " }, ramp = 'linear', until = " + extreme_number(random) + " }]";
+    case 4:
+      return random() % 2 ? "true" : "false";
+    case 5:
+      return extreme_holes(random);
     default:
       return extreme_number(random);
   }
