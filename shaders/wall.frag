@@ -7,6 +7,7 @@ uniform vec4 u_colour;
 uniform float u_thickness;  // thickness of the band, pixels
 uniform float u_advance;    // inward displacement of a driven wall's teeth, in periods
 uniform float u_line;       // width of lines, pixels
+uniform bool u_slides;      // whether the wall slides along itself
 
 out vec4 o_colour;
 
@@ -46,6 +47,7 @@ void main() {
     alpha = mix(0.15, 0.9, crests(height)) * (1.0 - 0.5 * depth);
   } else if (u_pattern == kGlow) {
     alpha = pow(1.0 - depth, 1.5);
+    if (u_slides) alpha *= mix(0.35, 1.0, stripes(v_place.x / (2.0 * u_thickness), 1.2 / u_thickness));
   } else if (u_pattern == kDashes) {
     face = 0.7 * stripes(v_place.x / (8.0 * u_line), 1.0 / (8.0 * u_line));
   } else if (u_pattern == kPlain) {

@@ -41,6 +41,12 @@ std::vector<std::pair<std::string, Estimate>> estimates_of(const Measured& measu
   for (std::size_t side = 0; side < measured.pressure.size(); ++side) {
     add("pressure." + std::string(kSideNames[side]), measured.pressure[side]);
   }
+  for (std::size_t side = 0; side < measured.shear_stress.size(); ++side) {
+    for (std::size_t axis = 0; axis < measured.shear_stress[side].size(); ++axis) {
+      add("shear_stress." + std::string(kSideNames[side]) + '.' + std::string(kAxes[axis].name),
+          measured.shear_stress[side][axis]);
+    }
+  }
   add("pressure.virial", measured.compressibility);
   for (const SpeciesMeans& species : measured.species) {
     const std::string place = "species." + species.name + '.';
@@ -222,6 +228,9 @@ Json result_json(const Scene& scene, std::uint64_t seed, const Simulation<D>& si
     json["compartments"]["share_left_series"] = measured.compartments->share_left_series;
     json["compartments"]["share_left_distribution"] =
         distribution_json(measured.compartments->distribution);
+    if (measured.piston) {
+      json["piston"]["position_series"] = measured.compartments->position_series;
+    }
   }
   for (const ResultTable& table : measured.tables()) add_table(json, table);
   if (measured.residuals) json["balance"] = balance_json(*measured.residuals);

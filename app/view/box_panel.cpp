@@ -10,9 +10,9 @@ namespace clatter {
 
 namespace {
 
-std::string inline_table(Wall wall) {
+std::string inline_table(Wall wall, int dimension) {
   TomlWriter writer;
-  visit_wall(writer, wall);
+  visit_wall(writer, wall, dimension);
   std::string lines = writer.text();
   lines.pop_back();
   for (std::size_t at = 0; (at = lines.find('\n', at)) != std::string::npos;) {
@@ -21,19 +21,19 @@ std::string inline_table(Wall wall) {
   return "{ " + lines + " }";
 }
 
-std::string inline_table(const std::array<std::optional<Wall>, 6>& walls) {
+std::string inline_table(const std::array<std::optional<Wall>, 6>& walls, int dimension) {
   std::string all;
   for (std::size_t side = 0; side < walls.size(); ++side) {
     if (!walls[side]) continue;
     all += (all.empty() ? "" : ", ") + std::string(kSideNames[side]) + " = " +
-           inline_table(*walls[side]);
+           inline_table(*walls[side], dimension);
   }
   return "{ " + all + " }";
 }
 
 // A wall of another kind, with the parameters that both kinds have.
 Wall wall_of(WallKind kind, const Wall& before) {
-  Wall wall{.kind = kind};
+  Wall wall{.kind = kind, .surface_velocity = before.surface_velocity};
   if (kind != WallKind::Thermal && before.kind != WallKind::Thermal) {
     wall.restitution = before.restitution;
     wall.roughness = before.roughness;
@@ -105,9 +105,32 @@ void wall_numbers(const Wall& wall, const std::optional<Wall>& opened, const std
          wall.restitution, usual.restitution);
 }
 
+// The velocity of a surface along a wall across the axis `normal`.
+void surface_velocity(const Wall& wall, const Wall& usual, int normal, int dimension,
+                      const std::string& path, Controls& controls) {
+  constexpr std::array<const char*, 3> kNames = {"Slide along x", "Slide along y", "Slide along z"};
+  constexpr std::array<const char*, 3> kSymbols = {"u_x", "u_y", "u_z"};
+  const std::string key = path + ".surface_velocity";
+  const auto vector = [&](const Wall& of) {
+    return VecX(Eigen::Map<const Vec<3>>(of.surface_velocity.data()).head(dimension));
+  };
+  for (int axis = 0; axis < dimension; ++axis) {
+    if (axis == normal) continue;
+    controls.component({.key = key.c_str(),
+                        .name = kNames[static_cast<std::size_t>(axis)],
+                        .symbol = kSymbols[static_cast<std::size_t>(axis)],
+                        .unit = "a/t",
+                        .help = "Velocity of the surface, which drags the particles that touch it",
+                        .low = -5.0,
+                        .high = 5.0},
+                       vector(wall), axis, vector(usual));
+  }
+}
+
 // Kind of wall at a side, or periodic, with its parameters.
 void side_panel(Session& session, Controls& controls, std::size_t side) {
   const Scene& scene = session.scene();
+  const int dimension = scene.dimension();
   const std::string path = std::string("walls.") + kSideNames[side];
   std::vector<std::string> words = {"periodic"};
   for (const auto& [name, kind] : kWallKinds) words.emplace_back(name);
@@ -121,7 +144,8 @@ void side_panel(Session& session, Controls& controls, std::size_t side) {
     if (wall && chosen > 0) {
       const Wall other =
           opened && chosen == usual ? *opened : wall_of(static_cast<WallKind>(chosen - 1), *wall);
-      controls.set({{path, inline_table(*wall)}}, {{path, inline_table(other)}});
+      controls.set({{path, inline_table(*wall, dimension)}},
+                   {{path, inline_table(other, dimension)}});
       return;
     }
     auto walls = scene.walls;
@@ -129,13 +153,18 @@ void side_panel(Session& session, Controls& controls, std::size_t side) {
       walls[each].reset();
       if (chosen > 0) walls[each] = wall_of(static_cast<WallKind>(chosen - 1), Wall{});
     }
-    controls.set({{"walls", inline_table(scene.walls)}}, {{"walls", inline_table(walls)}});
+    controls.set({{"walls", inline_table(scene.walls, dimension)}},
+                 {{"walls", inline_table(walls, dimension)}});
     return;
   }
   if (!wall) return;
   const bool indents = !controls.chooses();
   if (indents) ImGui::Indent();
   wall_numbers(*wall, opened, path, controls);
+  if (wall->kind == WallKind::Thermal || wall->roughness.any()) {
+    surface_velocity(*wall, opened.value_or(Wall{}), static_cast<int>(side / 2), dimension, path,
+                     controls);
+  }
   if (indents) ImGui::Unindent();
 }
 

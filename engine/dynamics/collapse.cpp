@@ -61,12 +61,13 @@ static double helpful_contact_time(const Model<D>& model, const Watchdog& watchd
 }
 
 // Greatest speed that a wall's drive or motion gives to a particle at rest. Exact for driven walls
-// and the saw-tooth, approximate for sinusoidal walls.
+// and the saw-tooth, approximate for sinusoidal and sliding walls.
 template <int D>
 static double drive_of(const Model<D>& model) {
   double drive = 0.0;
   model.for_walls([&](const Wall& wall) {
-    drive = std::max({drive, wall.drive_speed, 2.0 * wall.stroke * wall.frequency});
+    drive = std::max(
+        {drive, wall.drive_speed, 2.0 * wall.stroke * wall.frequency, wall.surface<D>().norm()});
   });
   return drive;
 }

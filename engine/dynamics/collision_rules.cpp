@@ -21,7 +21,7 @@ PairOutcome<D> pair_outcome(const ContactLaw& law, const Partners& partners, con
 }
 
 template <int D>
-static Departure<D> emitted(const Model<D>& model, double temperature, const Vec<D>& normal,
+static Departure<D> emitted(const Model<D>& model, const Wall& spec, const Vec<D>& normal,
                             const WallState& wall, const Arrival<D>& arrival) {
   const Grain& grain = arrival.grain;
   Random random(model.seed, Stream::ThermalWall, arrival.particle, arrival.flight);
@@ -29,12 +29,12 @@ static Departure<D> emitted(const Model<D>& model, double temperature, const Vec
   std::array<double, D - 1> normals;
   for (double& normal : normals) normal = random.normal();
   Departure<D> departure;
-  departure.velocity = emit<D>(normal, temperature / grain.mass, uniform, normals.data());
-  departure.velocity += wall.velocity * normal;
+  departure.velocity = emit<D>(normal, spec.temperature / grain.mass, uniform, normals.data());
+  departure.velocity += wall.velocity * normal + spec.surface<D>();
   if (model.spins) {
     std::array<double, Spin<D>::SizeAtCompileTime> spin_normals;
     for (double& normal : spin_normals) normal = random.normal();
-    departure.spin = emit_spin<D>(temperature, grain, spin_normals.data());
+    departure.spin = emit_spin<D>(spec.temperature, grain, spin_normals.data());
   }
   return departure;
 }
@@ -60,7 +60,7 @@ template <int D>
 Departure<D> wall_outcome(const Model<D>& model, const Wall& spec, const Vec<D>& normal,
                           const WallState& wall, const Arrival<D>& arrival, bool elastic) {
   if (spec.kind == WallKind::Thermal) {
-    return emitted<D>(model, spec.temperature, normal, wall, arrival);
+    return emitted<D>(model, spec, normal, wall, arrival);
   }
   ContactLaw law = PairLaw{spec.restitution, spec.roughness}.contact();
   if (elastic) law = {.restitution = std::max(law.restitution, 1.0)};
@@ -75,8 +75,9 @@ Departure<D> wall_outcome(const Model<D>& model, const Wall& spec, const Vec<D>&
     const double away = departure.velocity.dot(normal);
     if (away < least) departure.velocity = with_normal<D>(departure.velocity, normal, least);
   }
-  const MotionChange<D> friction = wall_friction<D>(arrival.velocity, departure.velocity,
-                                                    arrival.spin, normal, law, arrival.grain);
+  const MotionChange<D> friction =
+      wall_friction<D>(arrival.velocity - spec.surface<D>(), departure.velocity, arrival.spin,
+                       normal, law, arrival.grain);
   departure.velocity += friction.velocity;
   departure.spin = arrival.spin + friction.spin;
   return departure;

@@ -326,8 +326,9 @@ void Foresight<D>::certify(Tile& tile, double farthest, double bend) const {
 
 // The speed that a wall gives to particles at rest.
 static double speed_of(const Wall& wall) {
-  if (wall.kind == WallKind::Thermal) return std::sqrt(wall.temperature);
-  return wall.drive_speed + std::numbers::pi * wall.stroke * wall.frequency;
+  const double along = wall.surface<3>().norm();
+  if (wall.kind == WallKind::Thermal) return std::sqrt(wall.temperature) + along;
+  return wall.drive_speed + std::numbers::pi * wall.stroke * wall.frequency + along;
 }
 
 // A speed that the gas has now or may soon have: the thermal one, or a fraction of the largest

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "engine/physics/wall_motion.h"
+#include "engine/vec.h"
 
 namespace clatter {
 
@@ -43,7 +44,17 @@ struct Wall {
   double stroke = 0.0;       ///< peak-to-peak travel of a saw-tooth or sinusoidal wall, >= 0
   double frequency = 0.0;    ///< of its motion, in periods per time unit, >= 0
   double phase = 0.0;        ///< of its motion at time 0, in periods
+  /// Velocity of the surface along the wall (theory 4.9). Its component along the normal is 0, and
+  /// those beyond the dimension are not read. Smooth walls pass no momentum along the surface.
+  std::array<double, 3> surface_velocity = {};
 
+  /// The velocity of the surface in D dimensions.
+  template <int D>
+  Vec<D> surface() const {
+    return Eigen::Map<const Vec<D>>(surface_velocity.data());
+  }
+  /// Whether the surface slides.
+  bool slides() const { return surface_velocity != std::array<double, 3>{}; }
   /// Whether the wall is of a kind that moves.
   bool moves() const { return kind == WallKind::Sawtooth || kind == WallKind::Sinusoidal; }
   /// The motion of a wall that moves, with its phase at simulation time 0; rest for other kinds.

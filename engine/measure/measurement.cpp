@@ -461,6 +461,9 @@ Measured Measurement<D>::means() const {
     }
     if (dissipated > 0.0) measured.undissipated_share = undissipated / dissipated;
   }
+  bool slides = false;
+  model.for_walls([&](const Wall& wall) { slides = slides || wall.slides(); });
+  measured.shear_stress.assign(2 * D, std::vector<std::optional<Estimate>>(D));
   for (int side = 0; side < 2 * D; ++side) {
     if (!model.walls[side]) continue;
     measured.walls_in = estimate([](const auto& w) { return w.walls_in / w.duration; });
@@ -468,6 +471,12 @@ Measured Measurement<D>::means() const {
     for (int axis = 0; axis < D; ++axis) area *= axis == side / 2 ? 1.0 : model.box[axis];
     measured.pressure[side] =
         estimate([&](const auto& w) { return w.wall_impulse[side] / (w.duration * area); });
+    if (!slides) continue;
+    for (int axis = 0; axis < D; ++axis) {
+      if (axis == side / 2) continue;
+      measured.shear_stress[side][axis] =
+          estimate([&](const auto& w) { return w.wall_drag[side][axis] / (w.duration * area); });
+    }
   }
   if (model.species) {
     const std::vector<std::size_t> counts = species_counts(simulation_);

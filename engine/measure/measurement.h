@@ -65,6 +65,9 @@ struct Measured {
   double ledger_residual = 0.0;  ///< see Totals::ledger_residual
   /// [2 D] on each Side: momentum per time and length, in 3D per time and area.
   std::vector<std::optional<Estimate>> pressure;
+  /// [2D][D] force of the gas per area of each wall along its surface, if a wall slides. The
+  /// component along the normal is absent.
+  std::vector<std::vector<std::optional<Estimate>>> shear_stress;
   std::optional<Estimate> compressibility;  ///< Z = p/(rho T) from the virial, fully periodic boxes
   std::vector<SpeciesMeans> species;        ///< [S] of a mixture; empty: the particles are alike
   std::vector<PairMeans> pairs;             ///< of the pairs of species of a mixture

@@ -134,8 +134,10 @@ void Totals<D>::on_wall(const WallCollision<D>& collision) {
   book(collision.particle.energy());
   window_.walls_in += collision.particle.energy();
   if (!collision.at_wall()) return;
-  window_.wall_impulse[collision.side] +=
-      std::fabs(collision.particle.gain.momentum[collision.side / 2]);
+  const int axis = collision.side / 2;
+  const Vec<D>& gain = collision.particle.gain.momentum;
+  window_.wall_impulse[collision.side] += std::fabs(gain[axis]);
+  window_.wall_drag[collision.side] -= gain - gain[axis] * Vec<D>::Unit(axis);
 }
 
 template <int D>

@@ -27,6 +27,15 @@ struct WindowTotals {
   double undissipated = 0.0;                 ///< energy that the TC model saved from dissipation
   double virial = 0.0;                       ///< sum of impulse.separation over pair collisions
   std::array<double, 2 * D> wall_impulse{};  ///< momentum transfer to each wall, along its normal
+  /// Momentum transfer to each wall along its surface, without the component along the normal.
+  std::array<Vec<D>, 2 * D> wall_drag = no_drag();
+
+  /// Vectors that are 0.
+  static std::array<Vec<D>, 2 * D> no_drag() {
+    std::array<Vec<D>, 2 * D> none;
+    none.fill(Vec<D>::Zero());
+    return none;
+  }
 };
 
 /// Visits all members, in order, for checkpoints.
@@ -34,9 +43,10 @@ template <class Archive, int D>
 void visit(Archive& io, WindowTotals<D>& window) {
   auto& [duration, temperature, second_moment, fourth_moment, collisions, elasticised,
          spin_temperature, walls_in, bulk_in, nudges_in, gravity_in, dissipated, undissipated,
-         virial, wall_impulse] = window;
+         virial, wall_impulse, wall_drag] = window;
   io(duration, temperature, second_moment, fourth_moment, collisions, elasticised, spin_temperature,
-     walls_in, bulk_in, nudges_in, gravity_in, dissipated, undissipated, virial, wall_impulse);
+     walls_in, bulk_in, nudges_in, gravity_in, dissipated, undissipated, virial, wall_impulse,
+     wall_drag);
 }
 
 /// Books energy and momentum of every event and of gravity, and averages the temperatures exactly

@@ -131,6 +131,9 @@ ChangedDimension change_dimension(const Scene& scene, int dimension) {
     changed.removed.emplace_back(key);
   };
   made.box = changed_box(scene, dimension);
+  for (auto& wall : made.walls) {
+    if (wall && dimension == 2) wall->surface_velocity[2] = 0.0;
+  }
   const bool flat = dimension == 2;
   remove_if(change_fixtures(made, scene.box), "obstacle or partition", [] {});
   remove_if(flat && made.piston && made.piston->axis == Axis::Z, "piston",

@@ -61,11 +61,14 @@ inline constexpr auto kWallKeys = key_table(
       "position of the wall."},
      {"phase", "1",
       "Phase of the motion in periods, at time 0. For a wall that begins to move later, the phase "
-      "at that time."}});
+      "at that time."},
+     {"surface_velocity", "a/t",
+      "Velocity of the surface along the wall. It drags particles that the wall emits, and those "
+      "that meet friction. The component across the wall is 0."}});
 
-/// The keys of one wall. Its kind determines which of them are allowed.
+/// The keys of one wall of a box. Its kind determines which of them are allowed.
 template <class Visitor>
-void visit_wall(Visitor& io, Wall& wall) {
+void visit_wall(Visitor& io, Wall& wall, int dimension) {
   io.choice(kWallKeys.at("kind"), wall.kind, kWallKinds, kRequired);
   const bool driven = wall.kind == WallKind::Driven;
   const bool thermal = wall.kind == WallKind::Thermal;
@@ -82,6 +85,10 @@ void visit_wall(Visitor& io, Wall& wall) {
   io.value(kWallKeys.at("frequency"), wall.frequency, between(0.0, kMaxFrequency), of_motion);
   io.value(kWallKeys.at("phase"), wall.phase, between(-kMaxPhase, kMaxPhase),
            wall.moves() ? kOptional : kNotOfWall);
+  VecX surface = VecX::Zero(dimension);
+  std::copy_n(wall.surface_velocity.begin(), dimension, surface.begin());
+  io.value(kWallKeys.at("surface_velocity"), surface, between(-kMaxSpeed, kMaxSpeed));
+  std::copy_n(surface.begin(), dimension, wall.surface_velocity.begin());
 }
 
 inline constexpr auto kSpeciesWallKeys = key_table(

@@ -38,6 +38,19 @@ static double top_speed(const Wall& wall) {
   return wall.kind == WallKind::Sinusoidal ? std::numbers::pi * speed : speed;
 }
 
+/// Throws if a wall's surface would move across the wall.
+static void check_surfaces(const Scene& scene, const toml::table& root, const std::string& file) {
+  for (int side = 0; side < 2 * scene.dimension(); ++side) {
+    const auto& wall = scene.walls[side];
+    const auto axis = static_cast<std::size_t>(side / 2);
+    if (!wall || wall->surface_velocity[axis] == 0.0) continue;
+    throw UserError(
+        place_of(root, wall_path(side) + ".surface_velocity", file),
+        "the surface would move across its wall, along " + std::string(kAxes[axis].name),
+        "set this component to 0: the surface slides along the wall");
+  }
+}
+
 static void check_speeds(const Scene& scene, const toml::table& root, const std::string& file) {
   for (int side = 0; side < 2 * scene.dimension(); ++side) {
     const auto& wall = scene.walls[side];
@@ -359,7 +372,7 @@ static void check_axes(const Scene& scene, const toml::table& root, const std::s
   check("measure.radial_distribution_profile.axis", scene.measure.radial_distribution_profile.axis);
 }
 
-/// Throws if films have too many plots, or those of species without species.
+/// Throws if films have too many plots, or those of species, dividers or observables without them.
 static void check_plots(const Scene& scene, const toml::table& root, const std::string& file) {
   for (const FilmPlot plot : {FilmPlot::SpeciesTemperature, FilmPlot::Mixing}) {
     const std::size_t fewest = plot == FilmPlot::Mixing ? 2 : 1;
@@ -378,6 +391,13 @@ static void check_plots(const Scene& scene, const toml::table& root, const std::
     throw UserError(place_of(root, "view.plots", file), "\"piston\" is for a free piston",
                     "remove it, or add the table [piston]");
   }
+  for (const FilmPlot plot : scene.view.plots) {
+    const auto observable = observable_of(plot);
+    if (!observable || scene.measure.observes(*observable)) continue;
+    const std::string name = '"' + std::string(name_of(plot, kFilmPlots)) + '"';
+    throw UserError(place_of(root, "view.plots", file), name + " is a plot of an observable",
+                    "remove it, or add " + name + " to measure.observables");
+  }
   if (scene.view.plots.size() <= View::kMostPlots) return;
   throw UserError(place_of(root, "view.plots", file),
                   "films have at most " + std::to_string(View::kMostPlots) + " plots",
@@ -387,6 +407,7 @@ static void check_plots(const Scene& scene, const toml::table& root, const std::
 void check_scene(const Scene& scene, const toml::table& root, const std::string& file) {
   check_pairs(scene, root, file);
   check_speeds(scene, root, file);
+  check_surfaces(scene, root, file);
   check_room(scene, root, file);
   check_colour(scene, root, file);
   check_axes(scene, root, file);

@@ -64,7 +64,7 @@ void visit_scene(Visitor& io, SceneInput& input) {
   io.table("walls", [&](auto& io) {
     for (int side = 0; side < 2 * dimension; ++side) {
       io.table(kSideNames[side], scene.walls[side], [&](auto& io, Wall& wall) {
-        visit_wall(io, wall);
+        visit_wall(io, wall, dimension);
         auto& differences = scene.species_walls[static_cast<std::size_t>(side)];
         differences.resize(input.species_names.size());
         io.table("species", [&](auto& io) {

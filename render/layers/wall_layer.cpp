@@ -13,12 +13,19 @@ namespace {
 // Must match wall.frag: the patterns, and the period of teeth over the thickness of the band.
 enum Pattern { kHatch, kTeeth, kWaves, kGlow, kDashes, kPlain };
 constexpr double kToothPeriod = 0.75;
+// A multiple of the periods of all patterns along the wall, over the thickness of the band.
+constexpr double kCommonPeriod = 6.0;
 
 struct Look {
   Pattern pattern;
   Colour colour;
   double advance = 0.0;  // displacement of a driven wall's teeth, world units
 };
+
+// Displacement of the pattern of a wall along the other axis, world units.
+double slide_of(const std::optional<Wall>& wall, int other, const Snapshot& snapshot) {
+  return wall ? wall->surface_velocity[static_cast<std::size_t>(other)] * snapshot.time : 0.0;
+}
 
 Look look_of(const std::optional<Wall>& wall, const Snapshot& snapshot,
              const WallColours& colours) {
@@ -40,9 +47,14 @@ Look look_of(const std::optional<Wall>& wall, const Snapshot& snapshot,
   return {kHatch, colour};
 }
 
+// Thickness in drawn pixels, a whole number of pixels of the finished picture.
+double thickness_of(const Projection& projection) {
+  return projection.samples * wall_thickness(projection.size);
+}
+
 // The four corners, as a triangle strip, of a band along the face of a wall. It reaches from
 // `inner` to `outer` pixels outside the face. Mitred ends join the bands of adjacent walls. The
-// pattern is fixed to the box, so it does not move with the adjacent wall.
+// pattern is fixed to the box or to the wall's surface, so it does not move with the adjacent wall.
 enum class Ends { Straight, Mitred };
 std::array<WallLayer::Vertex, 4> band(Side side, const Snapshot& snapshot,
                                       const Projection& projection, double inner, double outer,
@@ -52,7 +64,10 @@ std::array<WallLayer::Vertex, 4> band(Side side, const Snapshot& snapshot,
   const bool mitred = ends == Ends::Mitred && snapshot.walls[2 * other];
   const Faces faces = faces_of(snapshot);
   const Vec2 low = projection.pixels(faces.low), high = projection.pixels(faces.high);
-  const double origin = projection.pixels({0.0, 0.0})[other];
+  // Whole numbers of periods of all patterns are left out, because the numbers are floats.
+  const double slide = slide_of(snapshot.walls[side], other, snapshot) * projection.scale();
+  const double periods = kCommonPeriod * thickness_of(projection);
+  const double origin = projection.pixels({0.0, 0.0})[other] + std::fmod(slide, periods);
 
   std::array<WallLayer::Vertex, 4> corners;
   for (int i = 0; i < 4; ++i) {
@@ -66,11 +81,6 @@ std::array<WallLayer::Vertex, 4> band(Side side, const Snapshot& snapshot,
                   static_cast<float>(place[other] - origin), static_cast<float>(outward)};
   }
   return corners;
-}
-
-// Thickness in drawn pixels, a whole number of pixels of the finished picture.
-double thickness_of(const Projection& projection) {
-  return projection.samples * wall_thickness(projection.size);
 }
 
 double line_width(const Projection& projection) {
@@ -150,6 +160,8 @@ void WallLayer::draw_side(Side side, const Snapshot& snapshot, const Projection&
   const bool is_line = look.pattern == kDashes;
   const double periods = look.advance * projection.scale() / (kToothPeriod * thickness);
   gl_->Uniform1f(program_.uniform("u_advance"), periods - std::floor(periods));
+  gl_->Uniform1i(program_.uniform("u_slides"),
+                 snapshot.walls[side] && snapshot.walls[side]->slides());
   draw_band(band(side, snapshot, projection, is_line ? -0.5 * line : 0.0,
                  is_line ? 0.5 * line : thickness, Ends::Mitred),
             look.pattern, look.colour);

@@ -64,6 +64,7 @@ constexpr GalleryHash kGallery[] = {
     {"echo.toml", 0x5f471677f6f32384},
     {"doorkeeper.toml", 0x4e8c858b5150f229},
     {"ratchet.toml", 0xffefa658a9924cd4},
+    {"couette.toml", 0x212952d3a5108f01},
 };
 
 struct SceneHash {

@@ -34,18 +34,22 @@ Scene unusual_scene() {
   scene.particles.start.temperature = 1e-300;
   scene.particles.start.spin_temperature = 0.7;
   scene.walls[kLeft] = Wall{.kind = WallKind::Driven, .restitution = 0.9, .drive_speed = 2.5};
+  scene.walls[kLeft]->surface_velocity[1] = -1.5;
   scene.walls[kRight] = Wall{.kind = WallKind::Thermal, .temperature = 12345678901234567890.0};
   scene.walls[kBottom] = Wall{.kind = WallKind::Sawtooth,
                               .restitution = 0.25,
                               .roughness = {.friction = 0.1, .tangential_restitution = {}},
                               .stroke = 0.1,
                               .frequency = 1e9 / 3.0,
-                              .phase = -0.3};
+                              .phase = -0.3,
+                              .surface_velocity = {0.75, 0.0, 0.0}};
   scene.walls[kTop] = Wall{.kind = WallKind::Sinusoidal,
                            .restitution = 1.5,
                            .stroke = 0.05,
                            .frequency = 2.0,
-                           .phase = 0.5};
+                           .phase = 0.5,
+                           .surface_velocity = {-3.0, 0.0, 0.0}};
+  scene.walls[kRight]->surface_velocity[1] = 2.25;
   scene.gravity = Vec2(0.1, -1.0 / 3.0);
   scene.bulk_drive = {
       .interval = 0.05, .kick_speed = 0.12, .kick_spin = 0.3, .law = KickLaw::Momentum};
@@ -141,9 +145,9 @@ tangential_restitution = -0.1
 inertia = 0.4
 start = { layout = "lattice", temperature = 1e-300, spin_temperature = 0.7 }
 [walls]
-left = { kind = "driven", restitution = 0.9, drive_speed = 2.5 }
-right = { kind = "thermal", temperature = 12345678901234567890.0 }
-top = { kind = "sinusoidal", restitution = 1.5, stroke = 0.05, frequency = 2.0, phase = 0.5 }
+left = { kind = "driven", restitution = 0.9, drive_speed = 2.5, surface_velocity = [0.0, -1.5] }
+right = { kind = "thermal", temperature = 12345678901234567890.0, surface_velocity = [0.0, 2.25] }
+top = { kind = "sinusoidal", restitution = 1.5, stroke = 0.05, frequency = 2.0, phase = 0.5, surface_velocity = [-3.0, 0.0] }
 [walls.bottom]
 kind = "sawtooth"
 restitution = 0.25
@@ -151,6 +155,7 @@ friction = 0.1
 stroke = 0.1
 frequency = 333333333.3333333
 phase = -0.3
+surface_velocity = [0.75, 0.0]
 [gravity]
 acceleration = [0.1, -0.3333333333333333]
 [bulk_drive]
@@ -384,7 +389,7 @@ TEST_CASE("Scene file: a file is found by path or name, or the reason why not is
 }
 
 TEST_CASE("Scene file: the gallery's scenes are sound and presented") {
-  CHECK(embedded_scenes().size() == 31);
+  CHECK(embedded_scenes().size() == 32);
   for (const EmbeddedFile& file : embedded_scenes()) {
     CAPTURE(file.name);
     const Scene scene = load_scene(std::string(file.name));
