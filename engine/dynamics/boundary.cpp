@@ -18,27 +18,30 @@ std::array<WallMotion, 2 * D> wall_motions(const Model<D>& model) {
 template <int D>
 bool keeps_flights(const Model<D>& before, const Model<D>& after) {
   const auto same = [](const Fixture<D>& a, const Fixture<D>& b) { return a.has_shape_of(b); };
-  return before.gravity == after.gravity && wall_motions<D>(before) == wall_motions<D>(after) &&
+  return before.gravity == after.gravity && before.shear_rate == after.shear_rate &&
+         wall_motions<D>(before) == wall_motions<D>(after) &&
          std::ranges::equal(before.fixtures, after.fixtures, same);
 }
 
 template <int D>
 bool keeps_flights(const RunState<D>& saved, const Model<D>& after) {
-  return saved.gravity == after.gravity && saved.wall_motions == wall_motions<D>(after);
+  return saved.gravity == after.gravity && saved.shear_rate == after.shear_rate &&
+         saved.wall_motions == wall_motions<D>(after);
 }
 
 template <int D>
 Boundary<D>::Boundary(const Model<D>& model, const Clock& clock,
                       const std::array<double, 2 * D>& phase_shifts,
-                      const std::optional<PistonStroke>& piston)
+                      const std::optional<PistonStroke>& piston, double shear_phase)
     : model_(model) {
-  restart(clock, phase_shifts, piston);
+  restart(clock, phase_shifts, piston, shear_phase);
 }
 
 template <int D>
 void Boundary<D>::restart(const Clock& clock, const std::array<double, 2 * D>& phase_shifts,
-                          const std::optional<PistonStroke>& piston) {
+                          const std::optional<PistonStroke>& piston, double shear_phase) {
   phase_shifts_ = phase_shifts;
+  shear_phase_ = shear_phase;
   motions_ = {};
   piston_ = piston;
   move_base(clock);
@@ -46,6 +49,11 @@ void Boundary<D>::restart(const Clock& clock, const std::array<double, 2 * D>& p
 
 template <int D>
 void Boundary<D>::move_base(const Clock& clock) {
+  domain_ = model_.domain();
+  if (domain_.sheared) {
+    const double length = domain_.box[0];
+    domain_.offset = length * clock.periods(domain_.slide / length, shear_phase_);
+  }
   const std::array<WallMotion, 2 * D> motions = wall_motions<D>(model_);
   for (int side = 0; side < 2 * D; ++side) {
     innermost_[side] = clatter::innermost_travel(motions[side]);

@@ -22,13 +22,13 @@ namespace clatter {
 template <int D>
 std::array<WallMotion, 2 * D> wall_motions(const Model<D>& model);
 
-/// Whether flights continue under other laws: gravity, the motions of all walls and the shapes of
-/// all fixtures are the same.
+/// Whether flights continue under other laws: gravity, the shear rate, the motions of all walls and
+/// the shapes of all fixtures are the same.
 template <int D>
 bool keeps_flights(const Model<D>& before, const Model<D>& after);
 
-/// Whether the flights of a saved run continue under other laws: gravity and the motions of all
-/// walls are the same. Its events are predicted again, so its fixtures may differ.
+/// Whether the flights of a saved run continue under other laws: gravity, the shear rate and the
+/// motions of all walls are the same. Its events are predicted again, so its fixtures may differ.
 template <int D>
 bool keeps_flights(const RunState<D>& saved, const Model<D>& after);
 
@@ -37,17 +37,21 @@ bool keeps_flights(const RunState<D>& saved, const Model<D>& after);
 template <int D>
 class Boundary {
  public:
-  /// The walls of `model`, which must outlive this object. For `phase_shifts` and `piston` see
-  /// RunState.
+  /// The walls of `model`, which must outlive this object. For the others see RunState.
   Boundary(const Model<D>& model, const Clock& clock,
            const std::array<double, 2 * D>& phase_shifts = {},
-           const std::optional<PistonStroke>& piston = {});
+           const std::optional<PistonStroke>& piston = {}, double shear_phase = 0.0);
 
   /// Takes the changed walls of the model, at the clock's base. For the others see RunState.
   void restart(const Clock& clock, const std::array<double, 2 * D>& phase_shifts,
-               const std::optional<PistonStroke>& piston);
-  /// Computes the phases of moving walls and the times of the piston at the clock's new base.
+               const std::optional<PistonStroke>& piston, double shear_phase);
+  /// Computes the phases of moving walls and of a sheared box, and the times of the piston, at the
+  /// clock's new base.
   void move_base(const Clock& clock);
+  /// The box and its images at time 0 on the base.
+  const Domain<D>& domain() const { return domain_; }
+  /// Added to the offset of a sheared box, see RunState.
+  double shear_phase() const { return shear_phase_; }
   /// Replaces the stroke of the piston. Then the base must move.
   void begin(const PistonStroke& stroke) { piston_ = stroke; }
   /// The last stroke of the piston, at simulation times; absent: none yet.
@@ -76,6 +80,8 @@ class Boundary {
 
  private:
   const Model<D>& model_;
+  Domain<D> domain_;
+  double shear_phase_ = 0.0;
   std::array<double, 2 * D> phase_shifts_;
   std::array<std::optional<WallMotion>, 2 * D> motions_;  // of the walls that move
   std::optional<PistonStroke> piston_;

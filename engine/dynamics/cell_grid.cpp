@@ -90,6 +90,7 @@ void CellGrid<D>::reset(const Subdomain<D>& subdomain, const GridSizes& sizes, d
   sizes_ = sizes;
   base_ = sizes.base;
   open_ = subdomain.open();
+  slides_ = subdomain.ends[2] == End::Sliding;
   cells_ = cells;
   const Vec<D> extent = subdomain.upper - subdomain.lower;
   CellLayout<D> layout = lay_cells<D>(extent, base_, cells);
@@ -139,6 +140,13 @@ void CellGrid<D>::reset(const Subdomain<D>& subdomain, const GridSizes& sizes, d
   }
   lists_.assign(static_cast<std::size_t>(stride), List{});
   continuations_ = {};
+  if (!slides_) return;
+  // Searches from these lists are not plain.
+  IntVec<D> cell = IntVec<D>::Zero();
+  for (List& list : lists_) {
+    list.wraps = is_at_sliding(cell);
+    for (int axis = 0; axis < D && ++cell[axis] == counts_[axis]; ++axis) cell[axis] = 0;
+  }
 }
 
 template <int D>
@@ -303,7 +311,8 @@ bool CellGrid<D>::fit(double particles, double near) {
 template <int D>
 GridSizes grid_sizes(const Model<D>& model, const GrainArray& grains) {
   GridSizes best{model.diameter, model.diameter};
-  if (grains.empty()) return best;
+  // Across a sheared border searches read the lists of particles of the same reach.
+  if (grains.empty() || model.shear_rate) return best;
   // Particles of about the same size, and the mean size and mobility of all.
   struct Class {
     double count = 0.0, diameter = 0.0, mobility = 0.0;

@@ -47,6 +47,9 @@ inline int lists_along(int reach) {
 /// partners reads one list. A crossing removes the particle from one row of lists and adds it to
 /// another. Searches are far more frequent than crossings.
 ///
+/// Across the border of a sheared box lists have no neighbours, because these slide along. A search
+/// reads the lists beyond it that pass by within a time (visit_across).
+///
 /// In a mixture the cells may be smaller than large particles. A particle is on the lists of all
 /// cells within its reach, a number of cells along each axis. The reach is 1 up to the base
 /// diameter. Beyond it any particle of the base diameter that touches has the large particle on its
@@ -156,6 +159,25 @@ class CellGrid {
   template <typename Visit>
   void visit_wide(const IntVec<D>& cell, int reach, const Visit& visit) const;
 
+  /// Whether a cell is at the border of a sheared box.
+  bool is_at_sliding(const IntVec<D>& cell) const {
+    return slides_ && (cell[1] == 0 || cell[1] == counts_[1] - 1);
+  }
+  /// Whether a particle that crosses a border of its cell enters the next image of a sheared box.
+  bool slides_over(const IntVec<D>& cell, std::uint32_t border) const {
+    const auto [axis, step] = crossing_of(border);
+    return slides_ && axis == 1 && (step > 0 ? cell[1] == counts_[1] - 1 : cell[1] == 0);
+  }
+  /// Calls visit(list, image) for the lists of cells beyond the border of a sheared box that may
+  /// touch a particle in a cell at this border between two times. `image` is the periodic image of
+  /// the list's cell, in box lengths. A particle may be on several of these lists. `domain` has the
+  /// offset of time 0.
+  template <typename Visit>
+  void visit_across(const IntVec<D>& cell, const Domain<D>& domain, double from, double to,
+                    const Visit& visit) const;
+  /// Longest time that visit_across() should span.
+  double longest_look(const Domain<D>& domain) const;
+
   /// Calls visit(list) for the first list of each cell that move() changes, for a reach of 1.
   /// Across a periodic border move() changes further lists.
   template <typename Visit>
@@ -190,6 +212,7 @@ class CellGrid {
 
   Subdomain<D> subdomain_;
   bool open_;        // whether particles can leave the subdomain
+  bool slides_;      // whether the ends along y slide
   GridSizes sizes_;  // requested
   double base_;      // in force: in a narrow box the largest diameter
   int margin_ = 1;   // reach of the largest particle
@@ -275,6 +298,38 @@ void CellGrid<D>::visit_wide(const IntVec<D>& cell, int reach, const Visit& visi
     if (exists) visit(lists_[index(at)], wrap);
     for (int axis = 0; ++number[axis] == lists && axis < D - 1; ++axis) number[axis] = 0;
   }
+}
+
+// The cell of a particle beyond the border, shifted by the offset f in cells, is less than two
+// cells from this one along x: a diameter and the overhangs of both fit into a cell.
+template <int D>
+template <typename Visit>
+void CellGrid<D>::visit_across(const IntVec<D>& cell, const Domain<D>& domain, double from,
+                               double to, const Visit& visit) const {
+  for (const int above : {1, -1}) {
+    if (cell[1] != (above > 0 ? counts_[1] - 1 : 0)) continue;
+    const double first = above * (domain.offset + domain.slide * from) / widths_[0];
+    const double last = above * (domain.offset + domain.slide * to) / widths_[0];
+    const double low = std::floor(cell[0] - 2.0 - std::max(first, last)) + 1.0;
+    const double high = std::ceil(cell[0] + 2.0 - std::min(first, last)) - 1.0;
+    IntVec<D> at = cell, image = IntVec<D>::Zero();
+    at[1] = above > 0 ? 0 : counts_[1] - 1;
+    image[1] = above;
+    // Each list has the particles of three cells in a row.
+    for (double middle = low + 1.0; middle - 1.0 <= high; middle += 3.0) {
+      const double boxes = std::floor(middle / counts_[0]);
+      at[0] = static_cast<int>(middle - boxes * counts_[0]);
+      image[0] = static_cast<int>(boxes);
+      visit(lists_[index(at)], image);
+    }
+  }
+}
+
+template <int D>
+double CellGrid<D>::longest_look(const Domain<D>& domain) const {
+  constexpr double kMostCells = 12.0;
+  const double cells = std::min(kMostCells, std::max(3.0, 0.5 * counts_[0]));
+  return cells * widths_[0] / std::fabs(domain.slide);
 }
 
 // A particle on a parabola may leave through the border by which it entered. The calculation starts

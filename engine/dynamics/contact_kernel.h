@@ -29,6 +29,16 @@ struct Candidates {
   int size = 0;
 };
 
+/// The periodic images of candidates.
+template <int D>
+struct ImageFrame {
+  const double* box;           ///< [D] edge lengths
+  const int* extra = nullptr;  ///< [D] box lengths to add to each wrap; null: none
+  bool sheared = false;        ///< see Domain
+  double offset = 0.0;         ///< as Domain::offset, at time 0
+  double slide = 0.0;          ///< as Domain::slide
+};
+
 /// The first contact of a particle with its candidates.
 struct FirstContact {
   double time;    ///< kNever: none; kTouching: at least one already touches
@@ -146,7 +156,7 @@ template <int D>
 // Calculates the approaches of all candidates to a particle, see first_contacts.
 template <int D, bool kFalling, bool kShifted, class Sizes>
 [[gnu::always_inline]] inline void approach(const double* rows, std::uint32_t particle,
-                                            Candidates<D>& candidates, const double* box,
+                                            Candidates<D>& candidates, const ImageFrame<D>& frame,
                                             const Sizes& sizes, const double* gravity,
                                             Groups<D>& groups) {
   const double* const own = rows + static_cast<std::size_t>(particle) * kRowLength;
@@ -171,17 +181,27 @@ template <int D, bool kFalling, bool kShifted, class Sizes>
     for (int k = 0; k < kRowLength; k += 4) transpose(row, k, columns + k);
     const Ints image = second_words(columns[kImage<D>]);
     groups.images |= image;
-    Doubles shift[D];
+    Doubles shift[D], slide{};
+    const Doubles* slides = nullptr;
     if constexpr (kShifted) {
+      Doubles above{};
       for (int k = 0; k < D; ++k) {
-        const Ints boxes = image_component<D>(image, k) - image_component<D>(own_image, k) -
-                           wraps_of<D>(candidates.neighbours + i, k);
-        shift[k] = __builtin_convertvector(boxes, Doubles) * box[k];
+        Ints boxes = image_component<D>(image, k) - image_component<D>(own_image, k) -
+                     wraps_of<D>(candidates.neighbours + i, k);
+        if (frame.extra) boxes -= frame.extra[k];
+        const Doubles lengths = __builtin_convertvector(boxes, Doubles);
+        shift[k] = lengths * frame.box[k];
+        if (k == 1) above = lengths;
+      }
+      if (frame.sheared) {
+        shift[0] += above * frame.offset;
+        slide = above * frame.slide;
+        slides = &slide;
       }
     }
     groups.approaches[groups.count++] = approach_of<D, kFalling>(
         r, v, time, columns, columns + D, columns[2 * D], kShifted ? shift : nullptr,
-        distances_of<D>(sizes, particle, own, candidates.neighbours + i, row), gravity);
+        distances_of<D>(sizes, particle, own, candidates.neighbours + i, row), gravity, slides);
   }
 }
 
@@ -208,9 +228,9 @@ template <int D, bool kShifted>
 }  // namespace lanes
 
 /// For each particle, the first pair_contact_time with its candidates. A particle may be its own
-/// candidate, without effect. `rows` holds all particles, `box` the D edge lengths. `sizes` is the
-/// diameter of all, a double, or the Radii of a mixture. `gravity` is read only with kFalling. The
-/// result has the same bits with any instruction set.
+/// candidate, without effect. `rows` holds all particles. `sizes` is the diameter of all, a double,
+/// or the Radii of a mixture. `gravity` is read only with kFalling. The result has the same bits
+/// with any instruction set.
 ///
 /// Without kShifted, no candidate may have a wrap, and all rows must be in the frame of the box.
 /// With kShifted, no row's image may be far. If a row does not fit, `unique` is false and the
@@ -218,12 +238,12 @@ template <int D, bool kShifted>
 template <int D, bool kFalling, bool kShifted, std::size_t kParticles, class Sizes>
 [[gnu::always_inline]] inline std::array<FirstContact, kParticles> first_contacts(
     const double* rows, const std::array<std::uint32_t, kParticles>& particles,
-    std::array<Candidates<D>, kParticles>& candidates, const double* box, const Sizes& sizes,
-    const double* gravity) {
+    std::array<Candidates<D>, kParticles>& candidates, const ImageFrame<D>& frame,
+    const Sizes& sizes, const double* gravity) {
   using namespace lanes;
   Groups<D> groups[kParticles];
   for (std::size_t k = 0; k < kParticles; ++k) {
-    approach<D, kFalling, kShifted>(rows, particles[k], candidates[k], box, sizes, gravity,
+    approach<D, kFalling, kShifted>(rows, particles[k], candidates[k], frame, sizes, gravity,
                                     groups[k]);
   }
   // A separate loop, so that the roots and quotients of all groups overlap in the pipeline.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/dynamics/prefetch.h"
+#include "engine/dynamics/run_start.h"
 #include "engine/error.h"
 #include "engine/free_memory.h"
 
@@ -79,6 +80,7 @@ EventLoop<D>::EventLoop(const Model<D>& model, const Boundary<D>& boundary, RunS
 template <int D>
 void EventLoop<D>::restart(RunState<D>&& saved) {
   now_ = saved.now;
+  domain_ = boundary_.domain();
   gas_ = ParticleStates<D>();  // frees its memory before the next gas takes its own
   drop_plans();
   grains_.assign(saved.grains);
@@ -121,7 +123,7 @@ void EventLoop<D>::set_alike() {
 }
 
 template <int D>
-void EventLoop<D>::set_laws(bool keeps_flights, const Vec<D>& gravity, double start_speed) {
+void EventLoop<D>::set_laws(bool keeps_flights, const RunState<D>& former, double start_speed) {
   gas_.fit(model_, gas_.particles.size());
   begin_watch(start_speed, watchdog_ ? watchdog_->mean_collision_time() : 0.0, std::nullopt);
   set_alike();
@@ -131,7 +133,21 @@ void EventLoop<D>::set_laws(bool keeps_flights, const Vec<D>& gravity, double st
   near_.set_fixtures(model_);
   for (std::size_t i = 0; i < gas_.particles.size(); ++i) {
     Flight<D>& flight = gas_.particles.flight(i);
-    flight = {flight.at(now_, gravity), flight.velocity_at(now_, gravity), now_, flight.number};
+    flight = flight_from_now<D>(flight, model_, former, now_);
+  }
+  follow_images(domain_.at(now_).offset - boundary_.domain().at(now_).offset);
+}
+
+// The offset of a sheared box is kept below the length of the box. Images follow where whole
+// lengths are left out, so that they stay at their places.
+template <int D>
+void EventLoop<D>::follow_images(double left_out) {
+  domain_ = boundary_.domain();
+  if (!domain_.sheared) return;
+  const double lengths = std::round(left_out / domain_.box[0]);
+  if (lengths == 0.0) return;
+  for (std::uint32_t i = 0; i < gas_.particles.size(); ++i) {
+    gas_.particles.move_image(i, gas_.particles.image(i)[1] * lengths * Vec<D>::Unit(0));
   }
 }
 
@@ -161,6 +177,7 @@ void EventLoop<D>::load(const ParticleStates<D>& gas, const GrainArray& grains,
   constexpr std::size_t kAhead = 16;
   const std::size_t count = record.numbers.size();
   now_ = start;
+  domain_ = boundary_.domain();
   latest_ = end;
   record_ = &record;
   lower_ = subdomain.lower;
@@ -258,9 +275,10 @@ void EventLoop<D>::put_into_cell(std::size_t number) {
   if (!is_inside<D>(model_, r)) {
     throw PhysicalStop("particle " + std::to_string(i) + " is outside of the box at the start");
   }
-  const Vec<D> image = model_.domain().image_at(r);
+  const Domain<D> domain = domain_.at(now_);
+  const Vec<D> image = domain.image_at(r);
   gas_.particles.set_image(i, image);
-  plans_[i].cell = near_.place(i, r - model_.domain().shift(image));
+  plans_[i].cell = near_.place(i, r - domain.shift(image));
 }
 
 template <int D>
@@ -290,6 +308,7 @@ bool EventLoop<D>::plan(Preparation& work, const StopRequest& pause) {
 template <int D>
 void EventLoop<D>::move_base() {
   const double shift = now_;
+  follow_images(domain_.at(now_).offset - boundary_.domain().offset);
   for (std::size_t i = 0; i < gas_.particles.size(); ++i) gas_.particles.flight(i).time -= shift;
   for (double& time : gas_.last_collisions) time -= shift;
   now_ = 0.0;
@@ -403,7 +422,10 @@ template <int D>
 double EventLoop<D>::fastest_now() const {
   double square = 0.0;
   for (const Particle<D>& particle : gas_.particles) {
-    square = std::max(square, particle.flight.velocity_at(now_, model_.gravity).squaredNorm());
+    const Flight<D>& flight = particle.flight;
+    const Vec<D> velocity = flight.velocity_at(now_, model_.gravity);
+    square =
+        std::max(square, domain_.peculiar(flight.at(now_, model_.gravity), velocity).squaredNorm());
   }
   return std::sqrt(square);
 }
@@ -443,7 +465,7 @@ void EventLoop<D>::process(Event event) {
 
 template <int D>
 bool EventLoop<D>::compare(Preparation& work, const StopRequest& pause) const {
-  if (!work.fixtures.any()) work.fixtures = FixtureImages<D>(model_.fixtures, model_.domain());
+  if (!work.fixtures.any()) work.fixtures = FixtureImages<D>(model_.fixtures, domain_);
   return work.comparing.advance(gas_.particles.size(), pause, [&](std::size_t i) {
     work.deepest_overlap = std::max(work.deepest_overlap, deepest_overlap_of(i, work.fixtures));
   });
@@ -458,17 +480,18 @@ double EventLoop<D>::deepest_overlap_of(std::size_t number,
   const auto i = static_cast<std::uint32_t>(number);
   double deepest = 0.0;
   const Vec<D> r = gas_.particles[i].flight.at(now_, model_.gravity);
-  near_.visit(i, plans_[i].cell, [&](std::uint32_t j, const Vec<D>& wrap) {
+  const auto compare = [&](std::uint32_t j, const Vec<D>& wrap) {
     if (j == i || (j < i && grains_.empty())) return;
     const Vec<D> image = gas_.particles.image(j) - gas_.particles.image(i) - wrap;
     const Vec<D> x =
-        r - gas_.particles[j].flight.at(now_, model_.gravity) + model_.domain().shift(image);
+        r - gas_.particles[j].flight.at(now_, model_.gravity) + domain_.shift(image, now_);
     const double distance = grain(i).radius + grain(j).radius;
     deepest = std::max(deepest, (distance - x.norm()) / model_.diameter);
-  });
+  };
+  near_.visit(i, plans_[i].cell, compare);
+  near_.visit_beyond(plans_[i].cell, domain_, now_, compare);
   if (fixtures.any()) {
-    const double depth =
-        fixtures.depth(model_.domain().wrapped(r), grain(i).radius, grain(i).species);
+    const double depth = fixtures.depth(domain_.wrapped(r), grain(i).radius, grain(i).species);
     deepest = std::max(deepest, depth / model_.diameter);
   }
   if (piston_) {
@@ -514,7 +537,7 @@ template <int D>
 std::optional<std::pair<std::uint32_t, std::size_t>> EventLoop<D>::overlapping(
     const FixtureImages<D>& fixtures, double bearable) const {
   for (std::uint32_t i = 0; i < gas_.particles.size(); ++i) {
-    const Vec<D> place = model_.domain().wrapped(gas_.particles[i].flight.at(now_, model_.gravity));
+    const Vec<D> place = domain_.wrapped(gas_.particles[i].flight.at(now_, model_.gravity));
     const double depth = fixtures.depth(place, grain(i).radius, grain(i).species);
     if (depth > bearable * model_.diameter) {
       return std::pair(i, *fixtures.deepest(place, grain(i).radius, grain(i).species));

@@ -32,7 +32,7 @@ namespace clatter {
 /// Least number of physical events between two moves of the base.
 inline constexpr std::uint64_t kMinEventsPerBase = 64;
 
-/// The velocity of a particle after a nudge or puff.
+/// The velocity of a particle after a nudge or puff, in a sheared box without that of the flow.
 template <int D>
 struct NewVelocity {
   std::uint32_t particle = 0;
@@ -142,9 +142,9 @@ class EventLoop {
   /// Plans the next events of all particles, in cells that fit the crowding.
   void plan_again();
   /// Takes the changed laws of the model, and restarts the watchdog. `start_speed` is that of
-  /// RunState. Unless `keeps_flights`, all flights are replaced by flights from now on; `gravity`
-  /// is the acceleration of the former ones. Plans are then invalid until plan_again().
-  void set_laws(bool keeps_flights, const Vec<D>& gravity, double start_speed);
+  /// RunState. Unless `keeps_flights`, all flights are replaced by flights from now on; `former`
+  /// has the laws of the former ones. Plans are then invalid until plan_again().
+  void set_laws(bool keeps_flights, const RunState<D>& former, double start_speed);
   /// Deepest overlap of a particle with the walls of `boundary` now, as a share of the diameter; 0:
   /// none.
   double deepest_overlap_with(const Boundary<D>& boundary) const;
@@ -229,6 +229,8 @@ class EventLoop {
   bool is_too_fast(std::uint32_t number) const;
   [[gnu::always_inline]] inline bool is_fast(double velocity) const;
   void enter_next_cell(std::uint32_t number);
+  bool cross_sheared(std::uint32_t number);
+  void follow_images(double left_out);
   [[gnu::always_inline]] inline Motion motion_now(std::uint32_t number);
   void carry_remainder(std::uint32_t number, Vec<D>& position);
   [[gnu::always_inline]] inline void renew_flight(std::uint32_t number, const Vec<D>& position,
@@ -250,7 +252,8 @@ class EventLoop {
 
   const Model<D>& model_;
   const Boundary<D>& boundary_;
-  double now_;  // on the base
+  Domain<D> domain_;  // with the offset at time 0 of the base
+  double now_;        // on the base
   ParticleStates<D> gas_;
   GrainArray grains_;        // [N]; empty: all particles are alike
   Grain alike_;              // of each particle then

@@ -20,11 +20,31 @@ void EventLoop<D>::enter_next_cell(std::uint32_t number) {
   Plan<D>& plan = plans_[number];
   if (near_.leaves_all(plan.cell, plan.partner)) [[unlikely]]
     return retire(number);
-  gas_.particles.move_image(
-      number, near_.leave(model_, gas_.particles, number, plan.cell, plan.partner, now_));
+  if (!domain_.sheared || !cross_sheared(number)) {
+    gas_.particles.move_image(
+        number, near_.leave(model_, gas_.particles, number, plan.cell, plan.partner, now_));
+  }
   ++counts_.cell_crossings;
   prediction_.plan({number, &plan}, now_);
   schedule(number);
+}
+
+// The exits of particles at the border of a sheared box. The flight stays as it is: its image has
+// another place and velocity. Returns false for an exit to another cell of the box.
+template <int D>
+bool EventLoop<D>::cross_sheared(std::uint32_t number) {
+  Plan<D>& plan = plans_[number];
+  if (plan.partner == kLookAcross) return true;
+  if (!near_.slides_over(plan.cell, plan.partner)) return false;
+  Vec<D> boxes = crossing_of(plan.partner).step * Vec<D>::Unit(1);
+  const Vec<D> image = gas_.particles.image(number) + boxes;
+  Vec<D> place =
+      gas_.particles[number].flight.at(now_, model_.gravity) - domain_.shift(image, now_);
+  boxes[0] = std::floor(place[0] / domain_.box[0]);
+  place[0] -= boxes[0] * domain_.box[0];
+  gas_.particles.move_image(number, boxes);
+  plan.cell = near_.slide_over(number, plan.cell, plan.partner, place);
+  return true;
 }
 
 // Removes a particle that leaves the subdomain. Plans of others to meet it become stale.
@@ -42,7 +62,7 @@ void EventLoop<D>::retire(std::uint32_t number) {
 template <int D>
 void EventLoop<D>::note_stray(std::uint32_t number, const Vec<D>& position) {
   auto& stray = record_->strays[number];
-  const Vec<D> place = position - model_.domain().shift(gas_.particles.image(number)) - lower_;
+  const Vec<D> place = position - domain_.shift(gas_.particles.image(number)) - lower_;
   float squared_way = 0.0f;
   for (int axis = 0; axis < D; ++axis) {
     const float way = record_->cut[axis] * (static_cast<float>(place[axis]) - stray.home[axis]);
@@ -96,6 +116,9 @@ void EventLoop<D>::carry_remainder(std::uint32_t number, Vec<D>& position) {
   position = rounded;
 }
 
+// Images of a sheared box are rounded several times in a contact, particles once.
+static constexpr double kImageSteps = 16.0;
+
 // Whether a body moves noticeably within the rounding of times. A particle may become fast long
 // after the base, for example in a cold gas at a driven wall. In this case the base moves at once.
 template <int D>
@@ -109,11 +132,19 @@ template <int D>
 void EventLoop<D>::renew_flight(std::uint32_t number, const Vec<D>& position,
                                 const Vec<D>& velocity) {
   if (is_fast(velocity.cwiseAbs().maxCoeff())) until_base_moves_ = 0;
+  if (domain_.sheared && is_fast(kImageSteps * domain_.slide)) until_base_moves_ = 0;
   if (record_) note_stray(number, position);
-  const Domain<D> domain = model_.domain();
-  const Vec<D> image = domain.image_at(position);
   Flight<D>& flight = gas_.particles.flight(number);
-  flight = {position - domain.shift(image), velocity, now_, flight.number + 1};
+  if (domain_.sheared) [[unlikely]] {
+    const Domain<D> domain = domain_.at(now_);
+    const Vec<D> image = domain.image_at(position);
+    flight = {position - domain.shift(image), velocity, now_, flight.number + 1};
+    flight.v[0] -= domain.velocity_x(image);
+    gas_.particles.move_image(number, -image);
+    return;
+  }
+  const Vec<D> image = domain_.image_at(position);
+  flight = {position - domain_.shift(image), velocity, now_, flight.number + 1};
   gas_.particles.move_image(number, -image);
 }
 
@@ -136,18 +167,22 @@ bool EventLoop<D>::within_contact_time(std::uint32_t number) const {
 // The record of one particle's change for observers.
 template <int D>
 [[gnu::always_inline]] static inline ParticleChange<D> change_of(
-    const ParticleStates<D>& gas, std::uint32_t number, const Grain& grain, const Vec<D>& position,
-    const Vec<D>& velocity, const Spin<D>& spin, const Impulse<D>& gain) {
-  return {number, grain, gas.particles[number].flight, position, velocity, spin, gain};
+    const ParticleStates<D>& gas, const Domain<D>& domain, std::uint32_t number, const Grain& grain,
+    const Vec<D>& position, const Vec<D>& velocity, const Spin<D>& spin, const Impulse<D>& gain) {
+  return {
+      number, grain, gas.particles[number].flight, position, domain.peculiar(position, velocity),
+      spin,   gain};
 }
 
 template <int D>
 void EventLoop<D>::collide(std::uint32_t first, std::uint32_t second, const IntVec<D>& image) {
-  const Vec<D> shift = model_.domain().shift(image.template cast<double>());
+  const Vec<D> shift = domain_.shift(image.template cast<double>(), now_);
   const auto [r_a, v_a] = motion_now(first);
   const auto [r_b, v_b] = motion_now(second);
   const Vec<D> x = (r_a - r_b) + shift;
-  const Vec<D> g = v_a - v_b;
+  Vec<D> g = v_a - v_b;
+  if (domain_.sheared) [[unlikely]]
+    g[0] += domain_.velocity_x(image.template cast<double>());
   const bool mixed = !grains_.empty();
   const Grain &one = grain(first), &other = grain(second);
   const double distance = one.radius + other.radius;
@@ -173,9 +208,9 @@ void EventLoop<D>::collide(std::uint32_t first, std::uint32_t second, const IntV
     const bool swap = second < first;
     const PairCollision<D> collision{
         now_,
-        {change_of(gas_, swap ? second : first, swap ? other : one, swap ? r_b : r_a,
+        {change_of(gas_, domain_, swap ? second : first, swap ? other : one, swap ? r_b : r_a,
                    swap ? v_b : v_a, spin(swap ? second : first), outcome.gain.of(swap)),
-         change_of(gas_, swap ? first : second, swap ? one : other, swap ? r_a : r_b,
+         change_of(gas_, domain_, swap ? first : second, swap ? one : other, swap ? r_a : r_b,
                    swap ? v_a : v_b, spin(swap ? first : second), outcome.gain.of(!swap))},
         x * (swap ? -1.0 : 1.0),
         outcome.elasticised,
@@ -223,7 +258,7 @@ void EventLoop<D>::depart(std::uint32_t number, const Motion& at, const Surface&
     const Vec<D> gain = grain(number).mass * (departure.velocity - at.v);
     const WallCollision<D> collision{now_,
                                      surface.side,
-                                     change_of(gas_, number, grain(number), at.r, at.v,
+                                     change_of(gas_, domain_, number, grain(number), at.r, at.v,
                                                spin(number), Impulse<D>{gain, spin_gain}),
                                      surface.normal,
                                      surface.fixture,
@@ -270,7 +305,7 @@ template <int D>
 void EventLoop<D>::hit_fixture(std::uint32_t number, std::uint32_t piece, const IntVec<D>& image) {
   const auto& [touched, fixture, valve] = near_.piece(piece);
   Motion at = motion_now(number);
-  const Vec<D> place = at.r + model_.domain().shift(image.template cast<double>());
+  const Vec<D> place = at.r + domain_.shift(image.template cast<double>());
   if (valve != PieceLists<D>::kNoValve) return meet_valve(number, at, place, near_.piece(piece));
   const Vec<D> normal = touched.normal_at(place);
   const double beyond = grain(number).radius - touched.distance(place);
@@ -294,7 +329,8 @@ void EventLoop<D>::meet_valve(std::uint32_t number, const Motion& at, const Vec<
   there.r[axis] += opening.piece.corner[axis] - place[axis];
   if (fixture.valves[opening.valve].passes(side, at.v.norm())) {
     const Kick<D> passage{
-        now_, change_of(gas_, number, grain(number), there.r, at.v, spin(number), Impulse<D>{}),
+        now_,
+        change_of(gas_, domain_, number, grain(number), there.r, at.v, spin(number), Impulse<D>{}),
         KickCause::Passage};
     for (Observer<D>* observer : observers_) observer->on_kick(passage);
     renew_flight(number, there.r, at.v);
@@ -413,7 +449,7 @@ void EventLoop<D>::kick() {
   for (std::uint32_t i = 0; i < count; ++i) {
     const Vec<D> gain = velocities[i] - mean;
     const auto [r, v] = motion_now(i);
-    const Kick<D> kick{now_, change_of(gas_, i, grain(i), r, v, spin(i),
+    const Kick<D> kick{now_, change_of(gas_, domain_, i, grain(i), r, v, spin(i),
                                        Impulse<D>{grain(i).mass * gain, spins[i]})};
     for (Observer<D>* observer : observers_) observer->on_kick(kick);
     renew_flight(i, r, v + gain);
@@ -424,8 +460,7 @@ void EventLoop<D>::kick() {
 
 // Whether the centre of a particle is in the region of a nudge.
 template <int D>
-static bool is_in_region(const Model<D>& model, const Nudge& nudge, const Vec<D>& position) {
-  const Domain<D> domain = model.domain();
+static bool is_in_region(const Domain<D>& domain, const Nudge& nudge, const Vec<D>& position) {
   const Vec<D> way = domain.shortest(domain.wrapped(position) - Vec<D>(*nudge.centre));
   return way.squaredNorm() <= *nudge.radius * *nudge.radius;
 }
@@ -437,11 +472,12 @@ std::vector<NewVelocity<D>> EventLoop<D>::velocities_after(const Nudge& nudge) c
   double mass = 0.0;
   for (std::uint32_t i = 0; i < gas_.particles.size(); ++i) {
     const Flight<D>& flight = gas_.particles[i].flight;
-    const bool chosen = nudge.particle
-                            ? static_cast<std::uint32_t>(*nudge.particle) == i
-                            : is_in_region<D>(model_, nudge, flight.at(now_, model_.gravity));
+    const bool chosen =
+        nudge.particle ? static_cast<std::uint32_t>(*nudge.particle) == i
+                       : is_in_region<D>(domain_.at(now_), nudge, flight.at(now_, model_.gravity));
     if (!chosen) continue;
-    velocities.push_back({i, flight.velocity_at(now_, model_.gravity)});
+    velocities.push_back({i, domain_.peculiar(flight.at(now_, model_.gravity),
+                                              flight.velocity_at(now_, model_.gravity))});
     mean += grain(i).mass * velocities.back().velocity;
     mass += grain(i).mass;
   }
@@ -462,13 +498,14 @@ void EventLoop<D>::nudge(const std::vector<NewVelocity<D>>& velocities,
                          std::uint64_t EventCounts::*count) {
   for (const NewVelocity<D>& next : velocities) {
     const auto [r, v] = motion_now(next.particle);
-    const Vec<D> gain = grain(next.particle).mass * (next.velocity - v);
+    const Vec<D> change = next.velocity - domain_.peculiar(r, v);
+    const Vec<D> gain = grain(next.particle).mass * change;
     const Kick<D> kick{now_,
-                       change_of(gas_, next.particle, grain(next.particle), r, v,
+                       change_of(gas_, domain_, next.particle, grain(next.particle), r, v,
                                  spin(next.particle), Impulse<D>{gain, Spin<D>::Zero()}),
                        KickCause::Nudge};
     for (Observer<D>* observer : observers_) observer->on_kick(kick);
-    renew_flight(next.particle, r, next.velocity);
+    renew_flight(next.particle, r, domain_.sheared ? v + change : next.velocity);
   }
   ++(counts_.*count);
   if (watchdog_) watchdog_.emplace(gas_.particles.size(), now_);
@@ -478,13 +515,16 @@ template <int D>
 void EventLoop<D>::reverse() {
   for (std::uint32_t i = 0; i < gas_.particles.size(); ++i) {
     const auto [r, v] = motion_now(i);
+    const Vec<D> peculiar = domain_.peculiar(r, v);
     const Spin<D> gain = -2.0 * spin(i);
-    const Kick<D> kick{
-        now_,
-        change_of(gas_, i, grain(i), r, v, spin(i), Impulse<D>{-2.0 * grain(i).mass * v, gain}),
-        KickCause::Nudge};
+    const Kick<D> kick{now_,
+                       change_of(gas_, domain_, i, grain(i), r, v, spin(i),
+                                 Impulse<D>{-2.0 * grain(i).mass * peculiar, gain}),
+                       KickCause::Nudge};
     for (Observer<D>* observer : observers_) observer->on_kick(kick);
-    renew_flight(i, r, -v);
+    Vec<D> after = -v;
+    if (domain_.sheared) after = v - 2.0 * peculiar;
+    renew_flight(i, r, after);
     add_spin(i, gain);
   }
   if (piston_) {
@@ -503,6 +543,8 @@ void EventLoop<D>::begin_stroke() {
 
 template void EventLoop<2>::enter_next_cell(std::uint32_t);
 template void EventLoop<3>::enter_next_cell(std::uint32_t);
+template bool EventLoop<2>::cross_sheared(std::uint32_t);
+template bool EventLoop<3>::cross_sheared(std::uint32_t);
 template bool EventLoop<2>::note(const Event&, const IntVec<2>&);
 template bool EventLoop<3>::note(const Event&, const IntVec<3>&);
 template Spin<2> EventLoop<2>::spin(std::uint32_t) const;

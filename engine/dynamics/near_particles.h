@@ -49,6 +49,7 @@ class NearParticles {
   /// the point to the image.
   template <class Visit>
   void visit(const Vec<D>& point, const Visit& visit) const {
+    if (domain_.sheared) return visit_sheared(point, visit);
     const Cell own = cell_at(point);
     Cell step = Cell::Constant(-1);
     while (step[D - 1] <= 1) {
@@ -81,6 +82,23 @@ class NearParticles {
     std::int64_t key = 0;
     for (int axis = D - 1; axis >= 0; --axis) key = key * counts_[axis] + cell[axis];
     return key;
+  }
+
+  // The images above and below slide, so the cells around the point's place among them are visited.
+  template <class Visit>
+  void visit_sheared(const Vec<D>& point, const Visit& visit) const {
+    const double height = domain_.box[1] / static_cast<double>(counts_[1]);
+    for (const double above : {-1.0, 0.0, 1.0}) {
+      Vec<D> seen = point - domain_.shift(above * Vec<D>::Unit(1));
+      seen[0] -= std::floor(seen[0] / domain_.box[0]) * domain_.box[0];
+      Cell own = cell_at(seen), step = Cell::Constant(-1);
+      own[1] = static_cast<std::int64_t>(std::floor(seen[1] / height));
+      while (step[D - 1] <= 1) {
+        const Cell cell = own + step;
+        if (cell[1] >= 0 && cell[1] < counts_[1]) visit_cell(cell, seen, visit);
+        for (int axis = 0; ++step[axis] > 1 && axis < D - 1; ++axis) step[axis] = -1;
+      }
+    }
   }
 
   // The particles of a cell, which may be one beyond the box.

@@ -165,6 +165,48 @@ class Neighbourhood {
     exits[0] = lists_->template exit<kFalling>(model, flight, image, number, now);
     return exits;
   }
+  /// Whether a particle in a cell is at the border of a sheared box.
+  bool is_at_sliding(const IntVec<D>& cell) const { return grid_.is_at_sliding(cell); }
+  /// As CellGrid::slides_over.
+  bool slides_over(const IntVec<D>& cell, std::uint32_t border) const {
+    return grid_.slides_over(cell, border);
+  }
+  /// Calls visit(list, image) as CellGrid::visit_across.
+  template <typename Visit>
+  void visit_across(const IntVec<D>& cell, const Domain<D>& domain, double from, double to,
+                    const Visit& visit) const {
+    grid_.visit_across(cell, domain, from, to, visit);
+  }
+  /// As CellGrid::longest_look.
+  double longest_look(const Domain<D>& domain) const { return grid_.longest_look(domain); }
+  /// The exits of a flight that is seen from its cell, without gravity. For cells only.
+  std::array<Exit, D> exits(const Model<D>& model, const Flight<D>& seen, const IntVec<D>& cell,
+                            double now) const {
+    return grid_.template exits<false>(model, seen, Vec<D>::Zero(), cell, now);
+  }
+  /// Calls visit(particle, wrap) for each particle beyond the border of a sheared box that may
+  /// touch a particle in a cell now.
+  template <typename Visit>
+  void visit_beyond(const IntVec<D>& cell, const Domain<D>& domain, double now,
+                    const Visit& visit) const {
+    if (!is_at_sliding(cell)) return;
+    grid_.visit_across(cell, domain, now, now, [&](const auto& list, const IntVec<D>& image) {
+      grid_.continuations().visit(list, [&](std::uint32_t neighbour, const Vec<D>& wrap) {
+        visit(neighbour, Vec<D>(wrap + image.template cast<double>()));
+      });
+    });
+  }
+  /// Puts a particle that crosses the border of a sheared box into the cell of its place beyond.
+  /// Returns this cell.
+  IntVec<D> slide_over(std::uint32_t particle, const IntVec<D>& cell, std::uint32_t border,
+                       const Vec<D>& place) {
+    remove(particle, cell);
+    IntVec<D> next = grid_.cell_at(place);
+    next[1] = grid_.neighbour(cell, 1, crossing_of(border).step)[1];
+    for (int axis = 2; axis < D; ++axis) next[axis] = cell[axis];
+    insert(particle, next);
+    return next;
+  }
   /// Whether a particle that crosses a border of its cell leaves all cells.
   bool leaves_all(const IntVec<D>& cell, std::uint32_t border) const {
     return !by_particle() && grid_.leaves_subdomain(cell, border);
@@ -191,7 +233,7 @@ class Neighbourhood {
   }
   /// Prefetches the lists that a crossing changes.
   void prefetch_crossing(const IntVec<D>& cell, std::uint32_t border) const {
-    if (by_particle()) return;
+    if (by_particle() || border == kLookAcross) return;
     const auto [axis, step] = crossing_of(border);
     grid_.visit_moved(cell, axis, step, [](const auto& list) { prefetch(list); });
   }
@@ -201,7 +243,7 @@ class Neighbourhood {
   }
   /// The cell of a particle after a crossing.
   IntVec<D> cell_after(const IntVec<D>& cell, std::uint32_t border) const {
-    if (by_particle()) return cell;
+    if (by_particle() || border == kLookAcross) return cell;
     const auto [axis, step] = crossing_of(border);
     return grid_.neighbour(cell, axis, step);
   }
@@ -211,7 +253,7 @@ class Neighbourhood {
   static constexpr double kDense = 0.43;
   // Whether the particles have lists of their own.
   static bool has_lists(const Model<D>& model, const GrainArray& grains, double particles) {
-    if (!model.fixtures.empty()) return false;
+    if (!model.fixtures.empty() || model.shear_rate) return false;
     for (int axis = 0; axis < D; ++axis) {
       const double narrowest = NeighbourLists<D>::kMinSide * model.diameter;
       if (model.periodic(axis) && model.box[axis] < narrowest) return false;

@@ -76,12 +76,14 @@ void Prediction<D>::offer(double time, std::uint32_t particle, std::uint32_t par
   plan.image = image;
 }
 
-// Periodic image of a pair: box lengths to add to the particle's r minus the candidate's.
+// Periodic image of a pair: box lengths to add to the particle's r minus the candidate's. `extra`
+// adds to the wraps of the candidates.
 template <int D>
-Vec<D> Prediction<D>::image_of(std::uint32_t particle, const Candidates<D>& near, int i) const {
+Vec<D> Prediction<D>::image_of(std::uint32_t particle, const Candidates<D>& near, int i,
+                               const IntVec<D>& extra) const {
   const Neighbour neighbour = near.neighbours[i];
   Vec<D> image = particles_.image(particle_of<D>(neighbour)) - particles_.image(particle);
-  for (int k = 0; k < D; ++k) image[k] -= wrap_of<D>(neighbour, k);
+  for (int k = 0; k < D; ++k) image[k] -= wrap_of<D>(neighbour, k) + extra[k];
   return image;
 }
 
@@ -89,21 +91,22 @@ Vec<D> Prediction<D>::image_of(std::uint32_t particle, const Candidates<D>& near
 // time.
 template <int D>
 void Prediction<D>::offer_particle(std::uint32_t particle, const Candidates<D>& near, int i,
-                                   double time, Plan<D>& plan) const {
+                                   double time, Plan<D>& plan, const IntVec<D>& extra) const {
   const std::uint32_t partner = particle_of<D>(near.neighbours[i]);
-  const Vec<D> image = image_of(particle, near, i);
+  const Vec<D> image = image_of(particle, near, i, extra);
   if (time == kTouching) {
-    const Vec<D> shift = model_.domain().shift(image);
-    time = contact_time<D>(particles_[particle].flight, particles_[partner].flight, shift,
-                           radius_of(particle) + radius_of(partner), model_.gravity);
+    const Domain<D>& domain = boundary_.domain();
+    time = contact_time<D>(particles_[particle].flight, particles_[partner].flight,
+                           domain.shift(image), radius_of(particle) + radius_of(partner),
+                           model_.gravity, domain.velocity_x(image));
   }
   offer(time, particle, partner, image.template cast<int>(), plan);
 }
 
 template <int D>
-void Prediction<D>::weigh_each(std::uint32_t particle, const Candidates<D>& near,
-                               Plan<D>& plan) const {
-  for (int i = 0; i < near.size; ++i) offer_particle(particle, near, i, kTouching, plan);
+void Prediction<D>::weigh_each(std::uint32_t particle, const Candidates<D>& near, Plan<D>& plan,
+                               const IntVec<D>& extra) const {
+  for (int i = 0; i < near.size; ++i) offer_particle(particle, near, i, kTouching, plan, extra);
 }
 
 // Copies a list of a known capacity. It copies the whole list, because its length is unpredictable.
@@ -130,7 +133,8 @@ template <int D>
 template <bool kFalling, bool kMixed, bool kShifted, std::size_t kParticles>
 std::array<FirstContact, kParticles> Prediction<D>::first_of(
     const std::array<std::uint32_t, kParticles>& particles,
-    std::array<Candidates<D>, kParticles>& near) const {
+    std::array<Candidates<D>, kParticles>& near, const int* extra) const {
+  const Domain<D>& domain = boundary_.domain();
   const auto sizes = [this] {
     if constexpr (kMixed) {
       return grains_.radii();
@@ -138,9 +142,10 @@ std::array<FirstContact, kParticles> Prediction<D>::first_of(
       return model_.diameter;
     }
   }();
-  return first_contacts<D, kFalling, kShifted>(reinterpret_cast<const double*>(particles_.data()),
-                                               particles, near, model_.box.data(), sizes,
-                                               model_.gravity.data());
+  return first_contacts<D, kFalling, kShifted>(
+      reinterpret_cast<const double*>(particles_.data()), particles, near,
+      {model_.box.data(), extra, domain.sheared, domain.offset, domain.slide}, sizes,
+      model_.gravity.data());
 }
 
 // The fast path, which fits most events. It requires lists without continuations and wraps, and a
@@ -267,12 +272,41 @@ void Prediction<D>::look_at_first_lists(const Requests<kParticles>& requests) co
 // Offers the first contact of a particle with the candidates of one list.
 template <int D>
 void Prediction<D>::offer_first(std::uint32_t particle, const Candidates<D>& near,
-                                const FirstContact& first, Plan<D>& plan) const {
+                                const FirstContact& first, Plan<D>& plan,
+                                const IntVec<D>& extra) const {
   if (!first.unique) {
-    weigh_each(particle, near, plan);
+    weigh_each(particle, near, plan, extra);
   } else if (first.time <= plan.time) {
-    offer_particle(particle, near, first.candidate, first.time, plan);
+    offer_particle(particle, near, first.candidate, first.time, plan, extra);
   }
+}
+
+// In a sheared box the image of the cell may move, and particles beyond the border pass by. They
+// are looked at up to the next event of the particle, or up to another look.
+template <int D>
+template <bool kMixed>
+void Prediction<D>::look_across(const Request& request, double now) const {
+  const auto [particle, plan] = request;
+  const Domain<D>& domain = boundary_.domain();
+  const Flight<D> seen = domain.seen_from(particles_.image(particle), particles_[particle].flight);
+  for (const Exit& exit : near_.exits(model_, seen, plan->cell, now)) offer_exit(exit, *plan);
+  if (!near_.is_at_sliding(plan->cell)) return;
+  offer_exit({now + near_.longest_look(domain), kLookAcross}, *plan);
+  const auto look = [&](const auto& first_list, const IntVec<D>& extra) {
+    for (NearListView list(first_list);; list = near_.next(list)) {
+      std::array<Candidates<D>, 1> near;
+      if (list.capacity == kContinuedCapacity) {
+        take<kContinuedCapacity>(list, near[0]);
+      } else {
+        take<Neighbourhood<D>::kCapacity>(list, near[0]);
+      }
+      const FirstContact first =
+          first_of<false, kMixed, true, 1>({particle}, near, extra.data())[0];
+      offer_first(particle, near[0], first, *plan, extra);
+      if (list.next == NearListView::kNone) break;
+    }
+  };
+  near_.visit_across(plan->cell, domain, now, std::max(now, plan->time), look);
 }
 
 // A wall's reach is slightly farther than the wall moves in, so that rounding at a cell's border
@@ -299,7 +333,7 @@ void Prediction<D>::look_at_fixtures(std::uint32_t particle, Plan<D>& plan) cons
     if (passes) continue;
     const Vec<D> from = particles_.image(particle) + image.template cast<double>();
     const Flight<D>& flight = particles_[particle].flight;
-    const Vec<D> shift = model_.domain().shift(-from);
+    const Vec<D> shift = boundary_.domain().shift(-from);
     const double time =
         valve == PieceLists<D>::kNoValve
             ? piece_contact_time<D>(piece, flight, shift, radius_of(particle), model_.gravity)
@@ -328,6 +362,12 @@ void Prediction<D>::make_plans(const Requests<kParticles>& requests, double now)
     look_at_lists<kFalling, kMixed>(requests);
   }
   for (const auto& [particle, plan] : requests) {
+    if constexpr (!kPlain && !kFalling) {
+      if (boundary_.domain().sheared) {
+        look_across<kMixed>({particle, plan}, now);
+        continue;
+      }
+    }
     for (const Exit& exit :
          near_.template exits<kFalling>(model_, particles_, particle, plan->cell, now)) {
       offer_exit(exit, *plan);

@@ -17,6 +17,7 @@ RunState<D> first_state(const Model<D>& model, State<D> state, double start_time
   RunState<D> saved;
   saved.gravity = model.gravity;
   saved.wall_motions = wall_motions<D>(model);
+  saved.shear_rate = model.shear_rate;
   saved.base = {start_time, 0.0};
   saved.kick_interval = model.kick_interval();
   saved.kick_origin = start_time;
@@ -63,6 +64,18 @@ std::array<double, 2 * D> phase_shifts(const Model<D>& model, const RunState<D>&
   return shifts;
 }
 
+// The offset continues at the present one. Rest is a rate of 0.
+template <int D>
+double shear_phase(const Model<D>& model, const RunState<D>& saved) {
+  const auto per_length = [&](const std::optional<double>& rate) {
+    return rate.value_or(0.0) * model.box[1] / model.box[0];
+  };
+  const double before = per_length(saved.shear_rate), after = per_length(model.shear_rate);
+  if (before == after) return saved.shear_phase;
+  const Clock now = clock_at(saved);
+  return fraction(saved.shear_phase + now.periods(before, 0.0) - now.periods(after, 0.0));
+}
+
 // Just after the beginning of a period a wall is at its rest position, whatever its stroke.
 template <int D>
 PhysicalStop overlap_at_start(const Model<D>& model, const RunState<D>& saved, double overlap) {
@@ -99,12 +112,22 @@ PhysicalStop fixture_in_particle(const Model<D>& model, std::size_t fixture, std
       model.fixtures[fixture].name, particle));
 }
 
+// Peculiar velocities stay when the shear rate changes.
+template <int D>
+Flight<D> flight_from_now(const Flight<D>& flight, const Model<D>& model, const RunState<D>& former,
+                          double now) {
+  Flight<D> next{flight.at(now, former.gravity), flight.velocity_at(now, former.gravity), now,
+                 flight.number};
+  const double faster = model.shear_rate.value_or(0.0) - former.shear_rate.value_or(0.0);
+  if (faster != 0.0) next.v[0] += faster * (next.r[1] - 0.5 * model.box[1]);
+  return next;
+}
+
 template <int D>
 void restart_changed_flights(const Model<D>& model, RunState<D>& saved) {
   if (keeps_flights<D>(saved, model)) return;
   for (Flight<D>& flight : saved.flights) {
-    flight = {flight.at(saved.now, saved.gravity), flight.velocity_at(saved.now, saved.gravity),
-              saved.now, flight.number};
+    flight = flight_from_now<D>(flight, model, saved, saved.now);
   }
 }
 
@@ -112,6 +135,10 @@ template RunState<2> first_state(const Model<2>&, State<2>, double);
 template RunState<3> first_state(const Model<3>&, State<3>, double);
 template std::array<double, 4> phase_shifts(const Model<2>&, const RunState<2>&);
 template std::array<double, 6> phase_shifts(const Model<3>&, const RunState<3>&);
+template double shear_phase(const Model<2>&, const RunState<2>&);
+template double shear_phase(const Model<3>&, const RunState<3>&);
+template Flight<2> flight_from_now(const Flight<2>&, const Model<2>&, const RunState<2>&, double);
+template Flight<3> flight_from_now(const Flight<3>&, const Model<3>&, const RunState<3>&, double);
 template void restart_changed_flights(const Model<2>&, RunState<2>&);
 template void restart_changed_flights(const Model<3>&, RunState<3>&);
 template PhysicalStop fixture_in_particle(const Model<2>&, std::size_t, std::uint32_t, double);

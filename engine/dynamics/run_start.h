@@ -21,6 +21,16 @@ RunState<D> first_state(const Model<D>& model, State<D> state, double start_time
 template <int D>
 std::array<double, 2 * D> phase_shifts(const Model<D>& model, const RunState<D>& saved);
 
+/// The shear_phase that keeps the images of a sheared box at their places if its rate changes now.
+template <int D>
+double shear_phase(const Model<D>& model, const RunState<D>& saved);
+
+/// A flight that begins now, at a time on the base, under other laws than those of the former
+/// state. Its peculiar velocity stays.
+template <int D>
+Flight<D> flight_from_now(const Flight<D>& flight, const Model<D>& model, const RunState<D>& former,
+                          double now);
+
 /// Begins new flights now if flights do not continue under these laws. Predictions along a flight
 /// begin at its start.
 template <int D>

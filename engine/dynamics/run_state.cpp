@@ -42,7 +42,8 @@ bool makes_sense(const RunState<D>& state) {
   const double kicked =
       state.kick_origin + static_cast<double>(state.kicks_since_origin) * state.kick_interval;
   const double numbers = time + state.gravity.sum() + state.mean_collision_time +
-                         state.start_speed + kicked + state.checks.deepest_overlap +
+                         state.start_speed + kicked + state.shear_rate.value_or(0.0) +
+                         state.shear_phase + state.checks.deepest_overlap +
                          state.checks.clock_steps_back;
   constexpr std::uint64_t kLongestBase = std::uint64_t{1} << 40;
   constexpr double kLate = 1e-6;  // of the time

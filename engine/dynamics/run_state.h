@@ -62,6 +62,10 @@ struct RunState {
   std::array<WallMotion, 2 * D> wall_motions;
   /// Added to the phases of these motions, in periods: the result of changes of frequency.
   std::array<double, 2 * D> phase_shifts = {};
+  std::optional<double> shear_rate;  ///< of the flights; absent: the box is not sheared
+  /// Added to the offset of a sheared box, in lengths of the box: the result of changes of the
+  /// rate.
+  double shear_phase = 0.0;
   std::optional<PistonStroke> piston;   ///< its last stroke, at simulation times; absent: none yet
   std::optional<PistonFlight> free_piston;  ///< absent: none
   LongTime base;                            ///< simulation time of the moving base
@@ -157,12 +161,13 @@ void visit(Archive& io, Grain& grain) {
 /// Visits all members, in order, and requires that the state makes sense.
 template <class Archive, int D>
 void visit(Archive& io, RunState<D>& state) {
-  auto& [gravity, wall_motions, phase_shifts, piston, free_piston, base, now, flights, grains,
-         spins, last_collisions, remainders, until_base_moves, mean_collision_time, watchdog,
-         start_speed, kick_interval, kick_origin, kicks_since_origin, era, counts, checks] = state;
-  io(gravity, wall_motions, phase_shifts, piston, free_piston, base, now, flights, grains, spins,
-     last_collisions, remainders, until_base_moves, mean_collision_time, watchdog, start_speed,
-     kick_interval, kick_origin, kicks_since_origin, era, counts, checks);
+  auto& [gravity, wall_motions, phase_shifts, shear_rate, shear_phase, piston, free_piston, base,
+         now, flights, grains, spins, last_collisions, remainders, until_base_moves,
+         mean_collision_time, watchdog, start_speed, kick_interval, kick_origin, kicks_since_origin,
+         era, counts, checks] = state;
+  io(gravity, wall_motions, phase_shifts, shear_rate, shear_phase, piston, free_piston, base, now,
+     flights, grains, spins, last_collisions, remainders, until_base_moves, mean_collision_time,
+     watchdog, start_speed, kick_interval, kick_origin, kicks_since_origin, era, counts, checks);
   io.require(makes_sense(state));
 }
 

@@ -44,7 +44,8 @@ template <int D>
 void Simulation<D>::restart(const Model<D>& model, RunState<D> saved) {
   model_ = with_spins(model, !saved.spins.empty());
   clock_ = Clock(saved.base);
-  boundary_.restart(clock_, phase_shifts<D>(model_, saved), saved.piston);
+  boundary_.restart(clock_, phase_shifts<D>(model_, saved), saved.piston,
+                    shear_phase<D>(model_, saved));
   start_speed_ = saved.start_speed;
   kick_times_ = RegularTimes(saved.kick_origin, saved.kick_interval);
   kicks_since_origin_ = saved.kicks_since_origin;
@@ -66,12 +67,13 @@ void Simulation<D>::set_kicks() {
 }
 
 // Whether tiles can run a gas. Each hit of a free piston changes the contacts of particles far
-// apart, and particles that pass a valve have new flights without a collision.
+// apart, particles that pass a valve have new flights without a collision, and images of a sheared
+// box slide along those of others.
 template <int D>
 static bool suits_tiles(const Model<D>& model) {
-  return !model.free_piston && std::ranges::all_of(model.fixtures, [](const Fixture<D>& fixture) {
-    return fixture.valves.empty();
-  });
+  return !model.free_piston && !model.shear_rate &&
+         std::ranges::all_of(model.fixtures,
+                             [](const Fixture<D>& fixture) { return fixture.valves.empty(); });
 }
 
 template <int D>
@@ -80,7 +82,8 @@ void Simulation<D>::set_laws(const Model<D>& model) {
   const RunState<D> present = save_without_particles();
   const Model<D> next = with_spins(model, !spins().empty());
   const bool goes_on = keeps_flights<D>(model_, next);
-  const Boundary<D> boundary(next, clock_, phase_shifts<D>(next, present), boundary_.piston());
+  const Boundary<D> boundary(next, clock_, phase_shifts<D>(next, present), boundary_.piston(),
+                             shear_phase<D>(next, present));
   if (!goes_on) {
     const double overlap = loop_.deepest_overlap_with(boundary);
     if (overlap > bearable_overlap()) throw overlap_at_start<D>(next, present, overlap);
@@ -93,9 +96,9 @@ void Simulation<D>::set_laws(const Model<D>& model) {
   }
   loop_.for_observers([&](Observer<D>& observer) { observer.before_laws(next); });
   model_ = next;
-  boundary_.restart(clock_, boundary.phase_shifts(), boundary.piston());
+  boundary_.restart(clock_, boundary.phase_shifts(), boundary.piston(), boundary.shear_phase());
   set_kicks();
-  loop_.set_laws(goes_on, present.gravity, start_speed_);
+  loop_.set_laws(goes_on, present, start_speed_);
   look_anew();
   if (!suits_tiles(model_)) foresight_.reset();
   if (in_tiles_) {
@@ -113,7 +116,7 @@ void Simulation<D>::add_particles(const std::vector<Vec<D>>& positions,
   next.watchdog.reset();
   next.grains.insert(next.grains.end(), grains.begin(), grains.end());
   for (const Vec<D>& position : positions) {
-    next.flights.push_back({position, Vec<D>::Zero(), next.now, 0});
+    next.flights.push_back({position, boundary_.domain().flow(position), next.now, 0});
   }
   loop_.for_observers([&](Observer<D>& observer) { observer.before_laws(model_); });
   restart(model_, std::move(next));
@@ -480,6 +483,8 @@ RunState<D> Simulation<D>::save_without_particles() const {
   saved.gravity = model_.gravity;
   saved.wall_motions = wall_motions<D>(model_);
   saved.phase_shifts = boundary_.phase_shifts();
+  saved.shear_rate = model_.shear_rate;
+  saved.shear_phase = boundary_.shear_phase();
   saved.piston = boundary_.piston();
   saved.base = clock_.base();
   saved.start_speed = start_speed_;
@@ -492,14 +497,16 @@ RunState<D> Simulation<D>::save_without_particles() const {
 
 template <int D>
 std::vector<Vec<D>> Simulation<D>::positions() const {
-  const Domain<D> domain = model_.domain();
+  const Domain<D> domain = this->domain();
   std::vector<Vec<D>> positions;
   positions.reserve(particles().size());
   for (const Particle<D>& particle : particles()) {
     Vec<D> r = domain.wrapped(particle.flight.at(base_time(), model_.gravity));
     for (int axis = 0; axis < D; ++axis) {
       // A position a rounding error below 0 wraps to the far end of the box, which is position 0.
-      if (domain.periodic[axis] && r[axis] == domain.box[axis]) r[axis] = 0.0;
+      // In a sheared box the place there would be another one.
+      if (!domain.periodic[axis] || r[axis] != domain.box[axis]) continue;
+      r[axis] = domain.sheared && axis == 1 ? std::nextafter(r[axis], 0.0) : 0.0;
     }
     positions.push_back(r);
   }
@@ -511,8 +518,14 @@ State<D> Simulation<D>::state() const {
   State<D> state;
   state.positions = positions();
   state.velocities.reserve(particles().size());
+  const Domain<D> domain = this->domain();
   for (const Particle<D>& particle : particles()) {
-    state.velocities.push_back(particle.flight.velocity_at(base_time(), model_.gravity));
+    Vec<D> velocity = particle.flight.velocity_at(base_time(), model_.gravity);
+    if (domain.sheared) {
+      const Vec<D> position = particle.flight.at(base_time(), model_.gravity);
+      velocity[0] -= domain.velocity_x(domain.image_at(position));
+    }
+    state.velocities.push_back(velocity);
   }
   state.spins.assign(spins().begin(), spins().end());
   state.grains.reserve(loop_.grains().size());
@@ -539,7 +552,7 @@ template <int D>
 double Simulation<D>::kinetic_energy() const {
   double twice = 0.0;
   for_masses([&](const Flight<D>& flight, double mass) {
-    twice += mass * flight.velocity_at(base_time(), model_.gravity).squaredNorm();
+    twice += mass * peculiar_at(flight, base_time()).squaredNorm();
   });
   return 0.5 * twice;
 }

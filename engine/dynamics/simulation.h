@@ -149,6 +149,14 @@ class Simulation {
   double temperature() const;
   /// Kinetic energy of all spins, sum of I omega^2 / 2.
   double spin_energy() const;
+  /// The box and its images at time().
+  Domain<D> domain() const { return boundary_.domain().at(base_time()); }
+  /// The velocity of a flight at a time on the base, in a sheared box without that of the flow.
+  Vec<D> peculiar_at(const Flight<D>& flight, double time) const {
+    const Vec<D> velocity = flight.velocity_at(time, model_.gravity);
+    if (!model_.shear_rate) return velocity;
+    return boundary_.domain().peculiar(flight.at(time, model_.gravity), velocity);
+  }
   /// Displacement, velocity and acceleration of a wall at time(), from its rest position along its
   /// inward normal.
   WallState wall(int side) const { return boundary_.wall(side, base_time()); }

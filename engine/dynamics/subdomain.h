@@ -7,9 +7,9 @@
 
 namespace clatter {
 
-/// What lies at an end of a subdomain along an axis: its other end, a wall, or the rest of
-/// the gas.
-enum class End { Periodic, Wall, Open };
+/// What lies at an end of a subdomain along an axis: its other end, a wall, the rest of the gas, or
+/// the other end of a sheared box, which slides.
+enum class End { Periodic, Wall, Open, Sliding };
 
 /// The part of a gas that cells cover: the whole box or a cuboid of it. A cuboid may extend beyond
 /// the periodic border of the box; its coordinates then continue there.
@@ -17,7 +17,8 @@ template <int D>
 struct Subdomain {
   Vec<D> lower = Vec<D>::Zero();
   Vec<D> upper = Vec<D>::Zero();
-  std::array<End, 2 * D> ends = {};  ///< lower and upper end of each axis; both or none Periodic
+  std::array<End, 2 * D> ends = {};  ///< lower and upper end of each axis; both or none Periodic,
+                                     ///< both or none Sliding
   /// Distance of each end from the end of the box.
   std::array<double, 2 * D> to_box_end = {};
 
@@ -37,6 +38,7 @@ Subdomain<D> whole_box(const Model<D>& model) {
   whole.upper = model.box;
   for (int side = 0; side < 2 * D; ++side) {
     whole.ends[side] = model.periodic(side / 2) ? End::Periodic : End::Wall;
+    if (model.shear_rate && side / 2 == 1) whole.ends[side] = End::Sliding;
   }
   return whole;
 }

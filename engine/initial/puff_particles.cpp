@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/dynamics/boundary.h"
 #include "engine/dynamics/clock.h"
 #include "engine/error.h"
 #include "engine/initial/free_room.h"
@@ -15,13 +16,20 @@ namespace clatter {
 
 namespace {
 
+// The box and its images at the time of a state.
+template <int D>
+Domain<D> domain_at(const Model<D>& model, const RunState<D>& state) {
+  const Boundary<D> boundary(model, Clock(state.base), {}, {}, state.shear_phase);
+  return boundary.domain().at(state.now);
+}
+
 // The room between the particles of a gas at one time, the walls at that time, and the fixtures.
 template <int D>
 FreeRoom<D> room_between(const Model<D>& model, const Scene& laws, const RunState<D>& state) {
   const Vec<D> low = laws.clear_corner();
   Vec<D> high = low + Vec<D>(laws.clear_box());
   if (state.piston) high[0] -= state.piston->travel(Clock(state.base).absolute(state.now));
-  FreeRoom<D> room(model.domain(), model.diameter, low, high, model.fixtures);
+  FreeRoom<D> room(domain_at(model, state), model.diameter, low, high, model.fixtures);
   for (std::size_t i = 0; i < state.flights.size(); ++i) {
     room.insert(state.flights[i].at(state.now, state.gravity),
                 state.grains.empty() ? 0.5 * model.diameter : state.grains[i].radius);
@@ -48,6 +56,7 @@ std::vector<PuffParticle<D>> puff_particles(const RunState<D>& state, const Puff
   const Model<D> model = model_of<D>(laws, seed);
   const std::size_t before = state.flights.size();
   FreeRoom<D> room = room_between(model, laws, state);
+  const Domain<D> domain = domain_at(model, state);
   Random random(seed, Stream::Puff, static_cast<std::uint32_t>(state.counts.puffs), 0);
   const Vec<D> centre = puff.centre;
   const Vec<D> mean = puff.velocity ? Vec<D>(*puff.velocity) : Vec<D>(Vec<D>::Zero());
@@ -60,7 +69,7 @@ std::vector<PuffParticle<D>> puff_particles(const RunState<D>& state, const Puff
   };
   std::vector<PuffParticle<D>> particles;
   for (int tries = 0; tries < kTries && static_cast<int>(particles.size()) < puff.count; ++tries) {
-    const Vec<D> point = model.domain().wrapped(centre + point_in_ball<D>(puff.radius, random));
+    const Vec<D> point = domain.wrapped(centre + point_in_ball<D>(puff.radius, random));
     const auto number = static_cast<int>(particles.size());
     const Grain grain =
         laws.species.empty() ? model.grain() : laws.grain(species, number, puff.count);

@@ -423,8 +423,23 @@ class StartWork : public StartMaker::Work {
   }
 
   AnyState take() override {
+    if (is_from_file()) return std::get<State<D>>(scene_.particles.start.state);
+    State<D> state = beside_the_flow();
+    if (scene_.shear_rate) {
+      const Domain<D> domain = model_of<D>(scene_, seed_).domain();
+      for (std::size_t i = 0; i < state.positions.size(); ++i) {
+        state.velocities[i] += domain.flow(state.positions[i]);
+      }
+    }
+    return state;
+  }
+
+ private:
+  bool is_from_file() const { return scene_.particles.start.layout == Layout::File; }
+
+  // The placed particles with their velocities, without those of a sheared flow.
+  State<D> beside_the_flow() {
     const Start& start = scene_.particles.start;
-    if (is_from_file()) return std::get<State<D>>(start.state);
     if (!grains_.empty()) {
       State<D> state =
           state_at_places<D>(places_of_grains(), grains_, start.temperature, seed_, stop_);
@@ -446,9 +461,6 @@ class StartWork : public StartMaker::Work {
     }
     return state;
   }
-
- private:
-  bool is_from_file() const { return scene_.particles.start.layout == Layout::File; }
 
   // The two sides of a divider are rooms of their own. The upper one has other random numbers than
   // the lower one of any seed in use.

@@ -3,37 +3,98 @@
 #include <array>
 #include <cmath>
 
+#include "engine/physics/flight.h"
 #include "engine/vec.h"
 
 namespace clatter {
 
-/// The space of a gas: a box, and its periodic images along axes without walls. An image is
-/// given by whole numbers of box lengths, 0 along axes with walls.
+// A sheared box is periodic after Lees and Edwards (theory 14). The images above along y slide
+// along x, and carry the flow. Images are additive: the shift of a sum of images is the sum of
+// shifts.
+
+/// The space of a gas at an instant: a box, and its periodic images along axes without walls. An
+/// image is given by whole numbers of box lengths, 0 along axes with walls.
 template <int D>
 struct Domain {
   Vec<D> box = Vec<D>::Zero();     ///< edge lengths
   std::array<bool, D> periodic{};  ///< by axis; false: two walls
+  bool sheared = false;            ///< whether images above along y slide along x
+  double slide = 0.0;              ///< velocity along x of the next image above, a/t
+  double offset = 0.0;             ///< displacement along x of this image
 
+  /// The same space after a time.
+  Domain at(double time) const {
+    Domain later = *this;
+    later.offset += slide * time;
+    return later;
+  }
   /// The image that contains a position.
   [[gnu::always_inline]] Vec<D> image_at(const Vec<D>& position) const {
+    if (sheared) [[unlikely]]
+      return sheared_image_at(position);
     Vec<D> image = Vec<D>::Zero();
-    for (int axis = 0; axis < D; ++axis) {
-      const bool inside = position[axis] >= 0.0 && position[axis] < box[axis];
-      if (inside || !periodic[axis]) continue;
-      image[axis] = std::floor(position[axis] / box[axis]);
-    }
+    for (int axis = 0; axis < D; ++axis) image[axis] = boxes_to(position[axis], axis);
     return image;
   }
   /// The displacement of an image from the box.
-  Vec<D> shift(const Vec<D>& image) const { return image.cwiseProduct(box); }
+  Vec<D> shift(const Vec<D>& image) const {
+    Vec<D> shift = image.cwiseProduct(box);
+    if (sheared) [[unlikely]]
+      shift[0] += image[1] * offset;
+    return shift;
+  }
+  /// The same after a time.
+  Vec<D> shift(const Vec<D>& image, double time) const {
+    Vec<D> shift = image.cwiseProduct(box);
+    if (sheared) [[unlikely]]
+      shift[0] = (shift[0] + image[1] * offset) + velocity_x(image) * time;
+    return shift;
+  }
+  /// The velocity of an image along x.
+  double velocity_x(const Vec<D>& image) const { return sheared ? image[1] * slide : 0.0; }
   /// The place in the box of a position in any image.
   Vec<D> wrapped(const Vec<D>& position) const { return position - shift(image_at(position)); }
   /// The shortest way between the images of two points, from any way between them.
   Vec<D> shortest(Vec<D> way) const {
+    if (sheared) {
+      const double images = std::round(way[1] / box[1]);
+      way[0] -= images * offset;
+    }
     for (int axis = 0; axis < D; ++axis) {
       if (periodic[axis]) way[axis] -= box[axis] * std::round(way[axis] / box[axis]);
     }
     return way;
+  }
+  /// The velocity of the flow at a position, in the frame of the position's image (theory 14.1).
+  Vec<D> flow(const Vec<D>& position) const {
+    Vec<D> flow = Vec<D>::Zero();
+    if (sheared) flow[0] = slide * (position[1] / box[1] - 0.5);
+    return flow;
+  }
+  /// A velocity without that of the flow at a position in the same frame.
+  Vec<D> peculiar(const Vec<D>& position, Vec<D> velocity) const {
+    if (sheared) velocity[0] -= flow(position)[0];
+    return velocity;
+  }
+  /// A flight seen from an image. Its time is on the base of this domain's offset.
+  Flight<D> seen_from(const Vec<D>& image, Flight<D> flight) const {
+    flight.r -= shift(image, flight.time);
+    flight.v[0] -= velocity_x(image);
+    return flight;
+  }
+
+ private:
+  double boxes_to(double place, int axis) const {
+    const bool inside = place >= 0.0 && place < box[axis];
+    return inside || !periodic[axis] ? 0.0 : std::floor(place / box[axis]);
+  }
+  Vec<D> sheared_image_at(const Vec<D>& position) const {
+    Vec<D> image = Vec<D>::Zero();
+    for (int axis = D - 1; axis >= 0; --axis) {
+      const double slid = axis == 0 ? image[1] * offset : 0.0;
+      image[axis] = boxes_to(position[axis] - slid, axis);
+    }
+    return image;
   }
 };
 

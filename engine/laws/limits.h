@@ -12,6 +12,8 @@ inline constexpr double kMaxCount = std::numeric_limits<int>::max();
 inline constexpr double kMaxSpeed = 1e15;
 inline constexpr double kMaxTemperature = 1e30;
 inline constexpr double kMaxAcceleration = 1e15;
+/// Largest shear rate of a scene.
+inline constexpr double kMaxShearRate = 1e6;
 inline constexpr double kMaxLength = 1e6;
 inline constexpr double kMaxFrequency = 1e15;
 inline constexpr double kMaxPhase = 1e6;

@@ -92,6 +92,7 @@ struct Model {
   std::optional<SpeciesLaws<D>> species;         ///< absent: all particles have the laws above
   bool spins = false;  ///< whether particles have spins: they or walls are or were rough
   Vec<D> gravity = Vec<D>::Zero();      ///< acceleration of every particle
+  std::optional<double> shear_rate;     ///< of a sheared box (theory 14); absent: not sheared
   std::optional<BulkDrive> bulk_drive;  ///< absent: none
   std::optional<double> contact_time;   ///< t_c of the TC model; absent: off
   std::uint64_t seed = 1;               ///< of every random number of the run
@@ -142,10 +143,15 @@ struct Model {
   bool is_periodic() const {
     return std::ranges::none_of(walls, [](const auto& wall) { return wall.has_value(); });
   }
-  /// The box and its periodic images.
+  /// The box and its periodic images. Those of a sheared box have the offset of time 0.
   Domain<D> domain() const {
-    Domain<D> domain{.box = box};
+    Domain<D> domain;
+    domain.box = box;
     for (int axis = 0; axis < D; ++axis) domain.periodic[axis] = periodic(axis);
+    if (shear_rate) {
+      domain.sheared = true;
+      domain.slide = *shear_rate * box[1];
+    }
     return domain;
   }
   /// Coordinate of the centre of a particle that touches a wall at its rest position. `end` is 0

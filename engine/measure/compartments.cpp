@@ -29,7 +29,7 @@ void CompartmentSeries::sample(const Simulation<D>& simulation, const AxisPlane&
   position.push_back(plane.position);
   const double now = simulation.base_time();
   const Vec<D>& gravity = simulation.model().gravity;
-  const Domain<D> domain = simulation.model().domain();
+  const Domain<D> domain = simulation.domain();
   std::array<double, 2> counts{}, squares{};  // left, right
   simulation.for_masses([&](const Flight<D>& flight, double mass) {
     const std::size_t side =

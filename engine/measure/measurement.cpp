@@ -461,6 +461,23 @@ Measured Measurement<D>::means() const {
     }
     if (dissipated > 0.0) measured.undissipated_share = undissipated / dissipated;
   }
+  if (model.shear_rate) {
+    const double rate = *model.shear_rate, volume = model.box.prod();
+    const auto stress = [&](int a, int b) {
+      return [=](const WindowTotals<D>& w) {
+        return -(w.kinetic[2 * a + b] + w.collisional[2 * a + b] / w.duration) / volume;
+      };
+    };
+    ShearMeans& shear = measured.shear.emplace();
+    for (const int a : {0, 1}) {
+      for (const int b : {0, 1}) shear.stress[a][b] = estimate(stress(a, b));
+    }
+    const auto stress_yx = stress(1, 0);
+    measured.shear_in = estimate([&](const auto& w) { return rate * volume * stress_yx(w); });
+    if (rate != 0.0) {
+      shear.viscosity = estimate([&](const auto& w) { return stress_yx(w) / rate; });
+    }
+  }
   bool slides = false;
   model.for_walls([&](const Wall& wall) { slides = slides || wall.slides(); });
   measured.shear_stress.assign(2 * D, std::vector<std::optional<Estimate>>(D));

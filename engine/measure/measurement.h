@@ -39,6 +39,14 @@ void visit(Archive& io, TemperatureSeries& series) {
   io(times, temperature, spin_temperature);
 }
 
+/// Results of a sheared box (theory 14.2), averaged over time.
+struct ShearMeans {
+  /// [2][2] stress sigma_ab = -P_ab in the plane of the flow: a is the axis of the separation of
+  /// partners, b that of momentum.
+  std::array<std::array<Estimate, 2>, 2> stress;
+  std::optional<Estimate> viscosity;  ///< sigma_yx over the rate; absent: the rate is 0
+};
+
 /// Results of a run, averaged over the time after the burn-in. Results that the scene cannot have
 /// are absent.
 struct Measured {
@@ -58,6 +66,8 @@ struct Measured {
   std::optional<Estimate> bulk_in;     ///< power of the kicks of bulk driving
   std::optional<Estimate> nudges_in;   ///< power of nudges; absent: none so far
   std::optional<Estimate> gravity_in;  ///< power of gravity
+  std::optional<Estimate> shear_in;    ///< power of the shear; absent: the box is not sheared
+  std::optional<ShearMeans> shear;     ///< the same
   Estimate dissipated;                 ///< energy per time lost in pair collisions, > 0
   /// Energy that elasticised pair collisions did not dissipate, divided by the energy that all did:
   /// an estimate of the error due to t_c. Absent without a t_c or without dissipation.

@@ -33,7 +33,7 @@ void SpeciesTotals<D>::take_stock() {
   counts_.assign(species_.size(), 0);
   for (Motion& motion : species_) {
     motion.time = now;
-    motion.mass = motion.spin_squares = 0.0;
+    motion.mass = motion.cross = motion.spin_squares = 0.0;
     for (Vec<D>* sum : {&motion.squares, &motion.momentum, &motion.flow, &motion.place}) {
       sum->setZero();
     }
@@ -41,11 +41,12 @@ void SpeciesTotals<D>::take_stock() {
   for (std::uint32_t i = 0; i < simulation_.particles().size(); ++i) {
     const Grain& grain = simulation_.grain(i);
     const Flight<D>& flight = simulation_.particles()[i].flight;
-    const Vec<D> v = flight.velocity_at(now, gravity);
+    const Vec<D> v = simulation_.peculiar_at(flight, now);
     Motion& motion = species_[grain.species];
     ++counts_[grain.species];
     motion.mass += grain.mass;
     motion.squares += grain.mass * v.cwiseAbs2();
+    motion.cross += grain.mass * v[0] * v[1];
     motion.momentum += grain.mass * v;
     motion.flow += v;
     motion.place += flight.at(now, gravity);
@@ -66,6 +67,14 @@ void SpeciesTotals<D>::integrate(std::size_t species, double time) {
   motion.squares_time += dt * (motion.squares + dt * (slope + dt / 3.0 * curvature));
   motion.squares += dt * (2.0 * slope + dt * curvature);
   motion.momentum += dt * motion.mass * gravity;
+  if (const auto rate = simulation_.model().shear_rate) {
+    // As in Totals: dc_x/dt = -G c_y.
+    const double way = *rate * dt, across = motion.squares[1];
+    motion.squares_time[0] += dt * way * (way / 3.0 * across - motion.cross);
+    motion.squares[0] += way * (way * across - 2.0 * motion.cross);
+    motion.cross -= way * across;
+    motion.momentum[0] -= way * motion.momentum[1];
+  }
   motion.place_time += dt * (motion.place + dt / 2.0 * (motion.flow + dt / 3.0 * pull));
   motion.place += dt * (motion.flow + dt / 2.0 * pull);
   motion.flow += dt * pull;
@@ -81,6 +90,8 @@ void SpeciesTotals<D>::change(const ParticleChange<D>& particle, double time) {
   Motion& motion = species_[grain.species];
   motion.squares +=
       gain.momentum.cwiseProduct(gain.momentum / grain.mass + 2.0 * particle.velocity);
+  const Vec<D>&c = particle.velocity, &p = gain.momentum;
+  motion.cross += p[0] * c[1] + c[0] * p[1] + p[0] * p[1] / grain.mass;
   motion.momentum += gain.momentum;
   motion.flow += gain.momentum / grain.mass;
   motion.spin_squares += grain.moment_of_inertia() * gain.spin.dot(gain.spin + 2.0 * particle.spin);
@@ -98,6 +109,9 @@ void SpeciesTotals<D>::on_collision(const PairCollision<D>& collision) {
   const PairLaw law = simulation_.model().pair(first.grain.species, second.grain.species);
   if (!collision.elasticised && law.dissipates()) {
     pair.dissipated -= first.energy() + second.energy();
+    if (const auto rate = simulation_.model().shear_rate) {
+      pair.dissipated -= *rate * collision.separation[1] * first.gain.momentum[0];
+    }
   }
 }
 

@@ -85,6 +85,7 @@ class SpeciesTotals : public Observer<D> {
     double mass = 0.0;                     // sum m
     Vec<D> squares = Vec<D>::Zero();       // sum m v_k^2
     Vec<D> momentum = Vec<D>::Zero();      // sum m v_k
+    double cross = 0.0;                    // sum m v_x v_y
     Vec<D> flow = Vec<D>::Zero();          // sum v_k
     Vec<D> place = Vec<D>::Zero();         // sum r_k
     double spin_squares = 0.0;             // sum I omega^2
@@ -94,9 +95,9 @@ class SpeciesTotals : public Observer<D> {
 
     template <class Archive>
     void visit(Archive& io) {
-      auto& [time, mass, squares, momentum, flow, place, spin_squares, squares_time, place_time,
-             spin_squares_time] = *this;
-      io(time, mass, squares, momentum, flow, place, spin_squares, squares_time, place_time,
+      auto& [time, mass, squares, momentum, cross, flow, place, spin_squares, squares_time,
+             place_time, spin_squares_time] = *this;
+      io(time, mass, squares, momentum, cross, flow, place, spin_squares, squares_time, place_time,
          spin_squares_time);
     }
   };

@@ -18,8 +18,9 @@ Totals<D>::Totals(const Simulation<D>& simulation)
 template <int D>
 double Totals<D>::energy_of_starts() const {
   double twice = 0.0;
-  simulation_.for_masses(
-      [&](const Flight<D>& flight, double mass) { twice += mass * flight.v.squaredNorm(); });
+  simulation_.for_masses([&](const Flight<D>& flight, double mass) {
+    twice += mass * simulation_.peculiar_at(flight, flight.time).squaredNorm();
+  });
   return 0.5 * twice + simulation_.spin_energy();
 }
 
@@ -37,13 +38,14 @@ void Totals<D>::take_stock() {
   mass_ = simulation_.mass();
   squares_.setZero();
   momentum_.setZero();
+  cross_ = 0.0;
   spin_squares_ = 2.0 * simulation_.spin_energy();
-  const Vec<D>& gravity = simulation_.model().gravity;
   simulation_.for_masses([&](const Flight<D>& flight, auto mass) {
     const double m = mass;
-    const Vec<D> v = flight.velocity_at(integrated_to_, gravity);
+    const Vec<D> v = simulation_.peculiar_at(flight, integrated_to_);
     squares_ += m * v.cwiseAbs2();
     momentum_ += m * v;
+    cross_ += m * v[0] * v[1];
   });
 }
 
@@ -58,8 +60,29 @@ void Totals<D>::integrate_to(double time) {
   integral_ += dt * (squares_ + dt * (slope + dt / 3.0 * curvature));
   squares_ += dt * (2.0 * slope + dt * curvature);
   momentum_ += dt * mass_ * gravity;
+  if (simulation_.model().shear_rate) shear_to(dt);
   spin_integral_ += dt * spin_squares_;
   integrated_to_ = time;
+}
+
+// Velocities without the flow have dc_x/dt = -G c_y (theory 14.1). Adds the part of the integrals
+// and sums that constant velocities do not have.
+template <int D>
+void Totals<D>::shear_to(double dt) {
+  const double g = rate(), way = g * dt;
+  integral_[0] += dt * way * (way / 3.0 * squares_[1] - cross_);
+  cross_integral_ += dt * (cross_ - 0.5 * way * squares_[1]);
+  squares_[0] += way * (way * squares_[1] - 2.0 * cross_);
+  cross_ -= way * squares_[1];
+  momentum_[0] -= way * momentum_[1];
+}
+
+// The work of the shear on a flight, -G times the integral of m c_x c_y.
+template <int D>
+void Totals<D>::book_shear(const Flight<D>& flight, double mass, double time) {
+  const double g = rate(), dt = time - flight.time;
+  const Vec<D> c = simulation_.peculiar_at(flight, flight.time);
+  book(-g * mass * c[1] * dt * (c[0] - 0.5 * g * c[1] * dt));
 }
 
 template <int D>
@@ -78,7 +101,7 @@ void Totals<D>::book_work(double mass, const Vec<D>& distance) {
 
 // An event ends the particle's flight and changes its velocity and spin.
 template <int D>
-void Totals<D>::change(const ParticleChange<D>& particle) {
+void Totals<D>::change(const ParticleChange<D>& particle, double time) {
   const Impulse<D>& gain = particle.gain;
   squares_ +=
       gain.momentum.cwiseProduct(gain.momentum / particle.grain.mass + 2.0 * particle.velocity);
@@ -86,6 +109,10 @@ void Totals<D>::change(const ParticleChange<D>& particle) {
   spin_squares_ +=
       particle.grain.moment_of_inertia() * gain.spin.dot(gain.spin + 2.0 * particle.spin);
   book_work(particle.grain.mass, particle.position - particle.before.r);
+  if (!simulation_.model().shear_rate) return;
+  const Vec<D>&c = particle.velocity, &p = gain.momentum;
+  cross_ += p[0] * c[1] + c[0] * p[1] + p[0] * p[1] / particle.grain.mass;
+  book_shear(particle.before, particle.grain.mass, time);
 }
 
 template <int D>
@@ -102,24 +129,31 @@ void Totals<D>::on_laws() {
   mass_ = simulation_.mass();
 }
 
-// Books the work of gravity on all flights up to now.
+// Books the work of gravity and of the shear on all flights up to now.
 template <int D>
 void Totals<D>::end_flights() {
   const Vec<D>& gravity = simulation_.model().gravity;
   const double now = simulation_.base_time();
   simulation_.for_masses([&](const Flight<D>& flight, double mass) {
     book_work(mass, flight.at(now, gravity) - flight.r);
+    if (simulation_.model().shear_rate) book_shear(flight, mass, now);
   });
 }
 
 template <int D>
 void Totals<D>::on_collision(const PairCollision<D>& collision) {
   integrate_to(collision.time);
-  for (const ParticleChange<D>& particle : collision.particles) change(particle);
+  for (const ParticleChange<D>& particle : collision.particles) change(particle, collision.time);
   window_.collisions += 1.0;
   window_.elasticised += collision.elasticised;
-  const double gained = collision.particles[0].energy() + collision.particles[1].energy();
+  double gained = collision.particles[0].energy() + collision.particles[1].energy();
   book(gained);
+  if (simulation_.model().shear_rate) {
+    // The flow has different velocities at the two centres, so the shear works in a collision too.
+    const Vec<D>&x = collision.separation, &momentum = collision.particles[0].gain.momentum;
+    for (const int k : {0, 1, 2, 3}) window_.collisional[k] += x[k / 2] * momentum[k % 2];
+    gained += rate() * x[1] * momentum[0];
+  }
   // The gain of an elastic collision is a rounding error.
   const bool elastic = collision.elasticised || !simulation_.model().dissipates();
   if (!elastic) window_.dissipated -= gained;
@@ -130,7 +164,7 @@ void Totals<D>::on_collision(const PairCollision<D>& collision) {
 template <int D>
 void Totals<D>::on_wall(const WallCollision<D>& collision) {
   integrate_to(collision.time);
-  change(collision.particle);
+  change(collision.particle, collision.time);
   book(collision.particle.energy());
   window_.walls_in += collision.particle.energy();
   if (!collision.at_wall()) return;
@@ -143,7 +177,7 @@ void Totals<D>::on_wall(const WallCollision<D>& collision) {
 template <int D>
 void Totals<D>::on_kick(const Kick<D>& kick) {
   integrate_to(kick.time);
-  change(kick.particle);
+  change(kick.particle, kick.time);
   book(kick.particle.energy());
   double& in = kick.cause == KickCause::Nudge ? window_.nudges_in : window_.bulk_in;
   in += kick.particle.energy();
@@ -157,24 +191,26 @@ void Totals<D>::on_base_moved(double shift) {
 
 template <int D>
 WindowTotals<D> Totals<D>::close_window() {
-  const Model<D>& model = simulation_.model();
   const double now = simulation_.base_time();
   integrate_to(now);
   const double count = static_cast<double>(simulation_.particles().size());
   window_.duration = now - window_start_;
   simulation_.for_masses([&](const Flight<D>& flight, auto mass) {
     const double m = mass;
-    const Vec<D> squares = m * flight.velocity_at(now, model.gravity).cwiseAbs2();
+    const Vec<D> squares = m * simulation_.peculiar_at(flight, now).cwiseAbs2();
     window_.second_moment += squares / count;
     window_.fourth_moment += squares.cwiseAbs2() / count;
   });
   if (count > 0.0 && window_.duration > 0.0) {
     window_.temperature = integral_ / (window_.duration * count);
     window_.spin_temperature = spin_integral_ / (window_.duration * count * kSpinSize<D>);
+    window_.kinetic = {integral_[0], cross_integral_, cross_integral_, integral_[1]};
+    for (double& sum : window_.kinetic) sum /= window_.duration;
   }
   const WindowTotals<D> closed = window_;
   window_ = {};
   integral_.setZero();
+  cross_integral_ = 0.0;
   spin_integral_ = 0.0;
   take_stock();  // removes the accumulated rounding
   window_start_ = now;

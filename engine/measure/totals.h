@@ -23,6 +23,9 @@ struct WindowTotals {
   double bulk_in = 0.0;                      ///< energy input of kicks
   double nudges_in = 0.0;                    ///< energy input of nudges and puffs
   double gravity_in = 0.0;                   ///< work of gravity on the flights that ended
+  /// [2 a + b] in the plane of the flow of a sheared box: averages over time of sum m c_a c_b, and
+  /// sums of x_a J_b over pair collisions, of separation and momentum (theory 14.2).
+  std::array<double, 4> kinetic{}, collisional{};
   double dissipated = 0.0;                   ///< energy lost between particles, > 0
   double undissipated = 0.0;                 ///< energy that the TC model saved from dissipation
   double virial = 0.0;                       ///< sum of impulse.separation over pair collisions
@@ -42,15 +45,15 @@ struct WindowTotals {
 template <class Archive, int D>
 void visit(Archive& io, WindowTotals<D>& window) {
   auto& [duration, temperature, second_moment, fourth_moment, collisions, elasticised,
-         spin_temperature, walls_in, bulk_in, nudges_in, gravity_in, dissipated, undissipated,
-         virial, wall_impulse, wall_drag] = window;
+         spin_temperature, walls_in, bulk_in, nudges_in, gravity_in, kinetic, collisional,
+         dissipated, undissipated, virial, wall_impulse, wall_drag] = window;
   io(duration, temperature, second_moment, fourth_moment, collisions, elasticised, spin_temperature,
-     walls_in, bulk_in, nudges_in, gravity_in, dissipated, undissipated, virial, wall_impulse,
-     wall_drag);
+     walls_in, bulk_in, nudges_in, gravity_in, kinetic, collisional, dissipated, undissipated,
+     virial, wall_impulse, wall_drag);
 }
 
-/// Books energy and momentum of every event and of gravity, and averages the temperatures exactly
-/// over time.
+/// Books energy and momentum of every event, of gravity and of a sheared flow, and averages the
+/// temperatures exactly over time. Velocities are those without the flow.
 template <int D>
 class Totals : public Observer<D> {
  public:
@@ -76,7 +79,10 @@ class Totals : public Observer<D> {
   void visit(Archive& io);
 
  private:
-  void change(const ParticleChange<D>& particle);
+  void change(const ParticleChange<D>& particle, double time);
+  void shear_to(double dt);
+  void book_shear(const Flight<D>& flight, double mass, double time);
+  double rate() const { return simulation_.model().shear_rate.value_or(0.0); }
   void integrate_to(double time);
   double energy_of_starts() const;
   void take_stock();
@@ -92,10 +98,12 @@ class Totals : public Observer<D> {
   double mass_ = 0.0;                 // of all particles
   Vec<D> squares_ = Vec<D>::Zero();   // sum of m v_k^2 at integrated_to_
   Vec<D> momentum_ = Vec<D>::Zero();  // sum of m v_k at integrated_to_
+  double cross_ = 0.0;                // sum of m c_x c_y in a sheared box
   double spin_squares_ = 0.0;         // sum of I omega^2
   double integrated_to_;              // upper limit of the integrals, on the base
   double window_start_;
   Vec<D> integral_ = Vec<D>::Zero();  // of squares_ over time, in this window
+  double cross_integral_ = 0.0;       // of cross_
   double spin_integral_ = 0.0;        // of spin_squares_
   WindowTotals<D> window_;
 };
@@ -103,12 +111,13 @@ class Totals : public Observer<D> {
 template <int D>
 template <class Archive>
 void Totals<D>::visit(Archive& io) {
-  auto& [simulation, energy_at_start, booked, booked_sizes, mass, squares, momentum, spin_squares,
-         integrated_to, window_start, integral, spin_integral, window] = *this;
+  auto& [simulation, energy_at_start, booked, booked_sizes, mass, squares, momentum, cross,
+         spin_squares, integrated_to, window_start, integral, cross_integral, spin_integral,
+         window] = *this;
   const double inertia = simulation.model().inertia;
   double saved_inertia = inertia;
-  io(saved_inertia, energy_at_start, booked, booked_sizes, mass, squares, momentum, spin_squares,
-     integrated_to, window_start, integral, spin_integral, window);
+  io(saved_inertia, energy_at_start, booked, booked_sizes, mass, squares, momentum, cross,
+     spin_squares, integrated_to, window_start, integral, cross_integral, spin_integral, window);
   change_inertia(saved_inertia, inertia);
 }
 

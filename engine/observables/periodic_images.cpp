@@ -20,7 +20,7 @@ void PeriodicImages<D>::on_laws() {
 template <int D>
 void PeriodicImages<D>::move(const ParticleChange<D>& change) {
   of_flights_[change.particle] +=
-      simulation_.model().domain().image_at(change.position).template cast<int>();
+      simulation_.domain().image_at(change.position).template cast<int>();
 }
 
 template <int D>

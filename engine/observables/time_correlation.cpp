@@ -40,7 +40,7 @@ void MeanSquaredDisplacement<D>::sample() {
   if (simulation_.particles().empty()) return;
   const State<D> state = simulation_.state();
   const std::vector<IntVec<D>> images = images_->images();
-  const Domain<D> domain = simulation_.model().domain();
+  const Domain<D> domain = simulation_.domain();
   std::vector<Vec<D>> unwrapped = state.positions;
   for (std::size_t i = 0; i < unwrapped.size(); ++i) {
     unwrapped[i] += domain.shift(images[i].template cast<double>());

@@ -14,23 +14,30 @@ namespace clatter {
 inline constexpr double kApproachRounding = 8.0 * std::numeric_limits<double>::epsilon();
 
 /// Time at which the particles of two flights touch, or kNever; see pair_contact_time. `shift` is
-/// added to a.r - b.r and selects the periodic image, `distance` that of the centres at contact.
+/// added to a.r - b.r and selects the periodic image, `distance` that of the centres at contact. In
+/// a sheared box the shift is that at time 0, and moves along x at the velocity `slide`.
 /// Particles that already touch collide at once, but only if they approach faster than the rounding
 /// of their velocities. Otherwise the rounding of a collision would cause further collisions
 /// without end.
 template <int D>
 double contact_time(const Flight<D>& a, const Flight<D>& b, const Vec<D>& shift, double distance,
-                    const Vec<D>& gravity) {
+                    const Vec<D>& gravity, double slide = 0.0) {
+  const double* const slides = slide != 0.0 ? &slide : nullptr;
   const double time =
       pair_contact_time<D, true>(a.r.data(), a.v.data(), a.time, b.r.data(), b.v.data(), b.time,
-                                 shift.data(), distance, gravity.data());
+                                 shift.data(), distance, gravity.data(), slides);
   if (time != kTouching) return time;
   const double start = a.time > b.time ? a.time : b.time;
   const Vec<D> v_a = a.velocity_at(start, gravity);
   const Vec<D> v_b = b.velocity_at(start, gravity);
-  const Vec<D> x = (a.at(start, gravity) - b.at(start, gravity)) + shift;
+  Vec<D> x = (a.at(start, gravity) - b.at(start, gravity)) + shift;
+  Vec<D> g = v_a - v_b;
+  if (slides) {
+    x[0] += slide * start;
+    g[0] += slide;
+  }
   const double rounding = kApproachRounding * distance * (v_a.norm() + v_b.norm());
-  return x.dot(v_a - v_b) < -rounding ? start : kNever;
+  return x.dot(g) < -rounding ? start : kNever;
 }
 
 /// Time at which a flight reaches the plane at coordinate `plane` along `axis`, or kNever. `inward`

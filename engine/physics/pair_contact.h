@@ -45,7 +45,8 @@ struct PairApproach {
 };
 
 /// The approach of two flights. `distance` is that of the centres at contact: a Number, or a double
-/// for all pairs. A null `shift` means 0. Without kFalling, `gravity` is not read.
+/// for all pairs. A null `shift` means 0. Without kFalling, `gravity` is not read. `slide` is the
+/// velocity of the shift along x in a sheared box, where `shift` is that at time 0; null: 0.
 ///
 /// Gravity accelerates all particles equally, so relative motion is along a straight line. Gravity
 /// enters only through the positions and velocities at the later flight's start.
@@ -53,7 +54,7 @@ template <int D, bool kFalling, class Number, class Distance>
 [[gnu::always_inline]] inline PairApproach<Number> approach_of(
     const Number* r_a, const Number* v_a, const Number& time_a, const Number* r_b,
     const Number* v_b, const Number& time_b, const Number* shift, const Distance& distance,
-    const double* gravity) {
+    const double* gravity, const Number* slide = nullptr) {
   const Number start = time_a > time_b ? time_a : time_b;
   const Number since_a = start - time_a, since_b = start - time_b;
   Number x[D], g[D];
@@ -67,6 +68,10 @@ template <int D, bool kFalling, class Number, class Distance>
       g[k] = v_a[k] - v_b[k];
     }
     if (shift) x[k] += shift[k];
+  }
+  if (slide) {
+    x[0] += *slide * start;
+    g[0] += *slide;
   }
   Number wedge_squared{};
   for (int k = 0; k < D; ++k) {
@@ -102,9 +107,10 @@ template <int D, bool kFalling, class Number>
                                                        const Number& time_a, const Number* r_b,
                                                        const Number* v_b, const Number& time_b,
                                                        const Number* shift, double distance,
-                                                       const double* gravity) {
-  return pair_contact_time(
-      approach_of<D, kFalling>(r_a, v_a, time_a, r_b, v_b, time_b, shift, distance, gravity));
+                                                       const double* gravity,
+                                                       const Number* slide = nullptr) {
+  return pair_contact_time(approach_of<D, kFalling>(r_a, v_a, time_a, r_b, v_b, time_b, shift,
+                                                    distance, gravity, slide));
 }
 
 }  // namespace clatter

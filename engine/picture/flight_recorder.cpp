@@ -81,10 +81,42 @@ void FlightRecorder<D>::add_piece(std::vector<FlightPiece>& pieces, const Ended&
   const double now = simulation_.base_time();
   const double from = std::max(ended.flight.time, now - reach());
   if (!(from < ended.end)) return;
+  const Domain<D> domain = simulation_.domain();
+  if (domain.sheared) return add_sheared_pieces(pieces, ended, from);
   const Vec<D> r = ended.flight.at(from, ended.gravity);
-  pieces.push_back({ended.particle, from - now, ended.end - now,
-                    simulation_.model().domain().wrapped(r),
+  pieces.push_back({ended.particle, from - now, ended.end - now, domain.wrapped(r),
                     ended.flight.velocity_at(from, ended.gravity), ended.gravity});
+}
+
+// The parts of a straight flight in each image that it crosses.
+template <int D>
+void FlightRecorder<D>::add_sheared_pieces(std::vector<FlightPiece>& pieces, const Ended& ended,
+                                           double from) const {
+  const double now = simulation_.base_time();
+  const Domain<D> domain = simulation_.domain();
+  const auto& [r, v, start, number] = ended.flight;
+  const double height = domain.box[1], step = v[1] < 0.0 ? -1.0 : 1.0;
+  double image = std::floor((r[1] + v[1] * (from - start)) / height);
+  while (from < ended.end) {
+    const double border = (image + (step > 0.0 ? 1.0 : 0.0)) * height;
+    const double crossing = v[1] != 0.0 ? start + (border - r[1]) / v[1] : ended.end;
+    const double to = std::min(ended.end, std::max(from, crossing));
+    const Domain<D> then = domain.at(from - now);
+    Vec<D> place = r + v * (from - start), velocity = v;
+    place -= then.shift(image * Vec<D>::Unit(1));
+    place -= Vec<D>::Unit(0) * std::floor(place[0] / domain.box[0]) * domain.box[0];
+    for (int axis = 2; axis < D; ++axis) {
+      if (domain.periodic[axis]) {
+        place[axis] -= std::floor(place[axis] / domain.box[axis]) * domain.box[axis];
+      }
+    }
+    velocity[0] -= image * domain.slide;
+    if (to > from) {
+      pieces.push_back({ended.particle, from - now, to - now, place, velocity, Vec<D>::Zero()});
+    }
+    from = to;
+    image += step;
+  }
 }
 
 template <int D>

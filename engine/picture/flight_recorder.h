@@ -58,6 +58,7 @@ class FlightRecorder : public Observer<D> {
   bool keeps(std::uint32_t particle) const { return !only_ || *only_ == particle; }
   void end_flight(const ParticleChange<D>& change, double time);
   void forget();
+  void add_sheared_pieces(std::vector<FlightPiece>& pieces, const Ended& ended, double from) const;
   void add_piece(std::vector<FlightPiece>& pieces, const Ended& flight) const;
 
   const Simulation<D>& simulation_;

@@ -1,5 +1,6 @@
 #include "engine/picture/snapshot.h"
 
+#include <cmath>
 #include <utility>
 
 #include "engine/dynamics/simulation.h"
@@ -20,6 +21,13 @@ Snapshot snapshot_of(const Simulation<D>& simulation) {
   snapshot.piston_travel = simulation.piston_travel();
   if (state.piston) snapshot.free_piston = state.piston->place;
   snapshot.positions = as_columns(state.positions);
+  if (const Domain<D> domain = simulation.domain(); domain.sheared) {
+    snapshot.slide = domain.slide;
+    snapshot.offset = domain.offset - std::floor(domain.offset / domain.box[0]) * domain.box[0];
+    for (std::size_t i = 0; i < state.positions.size(); ++i) {
+      state.velocities[i] = domain.peculiar(state.positions[i], state.velocities[i]);
+    }
+  }
   snapshot.velocities = as_columns(state.velocities);
   snapshot.grains = std::move(state.grains);
   if (simulation.model().spins) snapshot.spins = as_columns(state.spins);

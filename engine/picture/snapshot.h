@@ -36,12 +36,13 @@ struct ArrowMap {
   std::vector<Arrow> arrows;  ///< of the cells that have a value, row by row
 };
 
-/// A part of a particle's flight, between two of its events.
+/// A part of a particle's flight, between two of its events. It ends where it crosses the border of
+/// a sheared box.
 struct FlightPiece {
   std::uint32_t particle = 0;
   double from = 0.0, to = 0.0;  ///< times relative to the snapshot's time, from < to <= 0
   VecX position;                ///< centre at `from`, wrapped into the box
-  VecX velocity;                ///< at `from`
+  VecX velocity;                ///< at `from`, also of the flow
   VecX acceleration;            ///< of gravity
 
   /// The centre at a time; may be outside a periodic box.
@@ -59,10 +60,12 @@ struct Snapshot {
   double diameter = 1.0;                      ///< of every particle, in a mixture of the largest
   std::array<std::optional<Wall>, 6> walls;   ///< indexed by Side; a pair absent: periodic
   std::array<double, 6> wall_displacement{};  ///< of each wall into the box at this time
+  double slide = 0.0;   ///< velocity along x of the next image above, in a sheared box; else 0
+  double offset = 0.0;  ///< displacement along x of this image at this time, 0 <= offset < Lx
   double piston_travel = 0.0;                 ///< of the right wall's rest position into the box
   std::optional<double> free_piston;          ///< place of its middle; absent: there is none
   Vectors positions;                  ///< [D][N] centres, wrapped into the box, in original order
-  Vectors velocities;                 ///< [D][N]
+  Vectors velocities;                 ///< [D][N], in a sheared box without that of the flow
   std::vector<Grain> grains;          ///< [N] what the particles are; empty: all alike
   std::vector<Species> species;       ///< of the scene, for colours and legends; empty: all alike
   std::vector<Obstacle> obstacles;    ///< that are present, and a thick piston

@@ -248,6 +248,7 @@ Model<D> model_of(const Scene& scene, std::uint64_t seed) {
   if (scene.piston) model.free_piston = free_piston_of(scene);
   model.spins = scene.spins();
   model.gravity = scene.gravity ? Vec<D>(*scene.gravity) : Vec<D>(Vec<D>::Zero());
+  model.shear_rate = scene.shear_rate;
   model.bulk_drive = scene.bulk_drive;
   model.contact_time = scene.contact_time;
   model.seed = seed;

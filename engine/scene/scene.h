@@ -139,6 +139,7 @@ struct Scene {
   std::vector<Partition> partitions;    ///< thin walls across the box
   std::optional<Piston> piston;         ///< that slides freely; absent: none
   std::optional<VecX> gravity;          ///< acceleration; absent: none
+  std::optional<double> shear_rate;     ///< of a sheared box; absent: not sheared
   std::optional<BulkDrive> bulk_drive;  ///< absent: none
   std::optional<double> contact_time;   ///< t_c > 0 of the TC model (theory 5.3); absent: off
   Measure measure;

@@ -404,10 +404,52 @@ static void check_plots(const Scene& scene, const toml::table& root, const std::
                   "remove some of view.plots");
 }
 
+/// Throws if a sheared box has something that its sliding images cannot have, or a measurement that
+/// does not know the flow.
+static void check_shear(const Scene& scene, const toml::table& root, const std::string& file) {
+  if (!scene.shear_rate) return;
+  const auto refuse = [&](const std::string& key, const std::string& problem,
+                          const std::string& advice) {
+    throw UserError(place_of(root, key, file), problem, advice);
+  };
+  for (int side = 0; side < 4; ++side) {
+    if (!scene.walls[side]) continue;
+    refuse(wall_path(side), "a sheared box has no walls across the flow or its gradient",
+           "remove the walls across x and y, or [shear]: walls can slide by surface_velocity");
+  }
+  if (scene.has_fixtures() || scene.piston) {
+    refuse(scene.piston              ? "piston"
+           : scene.obstacles.empty() ? "partition"
+                                     : "obstacle",
+           "a sheared box has no bodies at rest: its images slide", "remove it, or [shear]");
+  }
+  if (scene.gravity && scene.gravity->norm() > 0.0) {
+    refuse("gravity", "a sheared box has no gravity: the flow would not stay",
+           "remove [gravity], or [shear]");
+  }
+  const double least = 2.0 * scene.largest_diameter();
+  if (scene.box[1] < least) {
+    refuse("box.size",
+           "a sheared box of height " + number_text(scene.box[1]) +
+               " is lower than two of the largest diameters",
+           "choose a second side of at least " + number_text(least));
+  }
+  const Measure& measure = scene.measure;
+  if (!measure.fields.empty() || !measure.observables.empty()) {
+    refuse(measure.fields.empty() ? "measure.observables" : "measure.fields",
+           "fields and observables do not know the flow of a sheared box",
+           "remove them: the result has temperatures, stresses and the viscosity");
+  }
+  if (scene.view.field) {
+    refuse("view.field", "heatmaps do not know the flow of a sheared box", "remove it");
+  }
+}
+
 void check_scene(const Scene& scene, const toml::table& root, const std::string& file) {
   check_pairs(scene, root, file);
   check_speeds(scene, root, file);
   check_surfaces(scene, root, file);
+  check_shear(scene, root, file);
   check_room(scene, root, file);
   check_colour(scene, root, file);
   check_axes(scene, root, file);

@@ -32,6 +32,11 @@ inline constexpr auto kBoxKeys = key_table(
       "diameter."}});
 inline constexpr auto kGravityKeys =
     key_table(kRunCommands, {{"acceleration", "a/t^2", "Acceleration of all particles."}});
+inline constexpr auto kShearKeys = key_table(
+    kRunCommands,
+    {{"rate", "1/t",
+      "Velocity gradient of the flow, which is along x and grows along y. Needs a box that is "
+      "periodic along x and y."}});
 inline constexpr auto kCollapseKeys = key_table(
     kRunCommands,
     {{"contact_time", "t",
@@ -88,6 +93,9 @@ void visit_scene(Visitor& io, SceneInput& input) {
     if (acceleration.size() == 0) acceleration = VecX::Zero(scene.dimension());
     io.value(kGravityKeys.at("acceleration"), acceleration,
              between(-kMaxAcceleration, kMaxAcceleration), kRequired);
+  });
+  io.table("shear", scene.shear_rate, [&](auto& io, double& rate) {
+    io.value(kShearKeys.at("rate"), rate, between(-kMaxShearRate, kMaxShearRate), kRequired);
   });
   io.table("bulk_drive", scene.bulk_drive,
            [&](auto& io, BulkDrive& drive) { visit_bulk_drive(io, drive, input.spin_key()); });

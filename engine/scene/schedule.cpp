@@ -19,6 +19,7 @@ bool may_change_live(std::string_view key) {
       "particles.restitution", "particles.friction", "particles.tangential_restitution",
       "particles.inertia"};
   if (std::ranges::find(kOfParticles, key) != kOfParticles.end()) return true;
+  if (key == "shear.rate") return true;
   for (const std::string_view table : {"gravity", "bulk_drive", "collapse"}) {
     if (key.substr(0, key.find('.')) == table) return true;
   }
@@ -46,7 +47,7 @@ static void require_live(const std::vector<Override>& settings) {
     throw UserError(
         {}, "'" + setting.key + "' cannot change while the gas moves",
         "change laws only: restitution, friction, walls, obstacles, partitions, force and "
-        "pinned of the piston, gravity, bulk_drive, collapse");
+        "pinned of the piston, gravity, shear.rate, bulk_drive, collapse");
   }
 }
 
@@ -76,6 +77,12 @@ static void require_same_sides(const Scene& before, const Scene& now) {
     if (before.periodic(axis) == now.periodic(axis)) continue;
     throw UserError({}, "walls are added or removed", "change only keys of existing walls");
   }
+}
+
+static void require_same_shear(const Scene& before, const Scene& now) {
+  if (before.shear_rate.has_value() == now.shear_rate.has_value()) return;
+  throw UserError({}, "[shear] is added or removed while the gas moves",
+                  "start with [shear]: its rate may be 0, and can change");
 }
 
 // The partner of a contact whose keys begin with `owner`, as a wall: particles, a pair of species,
@@ -226,6 +233,7 @@ void Schedule::change_to(const std::vector<Override>& settings) {
   require_live(settings);
   Scene changed = with_settings(laws_, settings);
   require_same_sides(laws_, changed);
+  require_same_shear(laws_, changed);
   require_same_grains(laws_, changed);
   require_same_fixtures(laws_, changed);
   laws_ = std::move(changed);

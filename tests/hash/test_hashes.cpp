@@ -65,6 +65,7 @@ constexpr GalleryHash kGallery[] = {
     {"doorkeeper.toml", 0x4e8c858b5150f229},
     {"ratchet.toml", 0xffefa658a9924cd4},
     {"couette.toml", 0x212952d3a5108f01},
+    {"shear.toml", 0x34eda9a74d1543d0},
 };
 
 struct SceneHash {

@@ -42,7 +42,8 @@ Measured run(Scene scene, double burn_in, double duration, std::uint64_t seed) {
 void check_energy_balance(const Measured& measured, int count) {
   double sum = -measured.dissipated.mean;
   double error = measured.dissipated.standard_error;
-  for (const auto* gain : {&measured.walls_in, &measured.bulk_in, &measured.gravity_in}) {
+  for (const auto* gain :
+       {&measured.walls_in, &measured.bulk_in, &measured.gravity_in, &measured.shear_in}) {
     if (!*gain) continue;
     sum += (*gain)->mean;
     error = std::hypot(error, (*gain)->standard_error);

@@ -18,8 +18,8 @@ Scene vibrated_gas(double restitution, double wall_restitution);
 Measured run(Scene scene, double burn_in, double duration, std::uint64_t seed);
 
 /// Checks the energy balance of a stationary gas with `count` particles: the energy from walls,
-/// kicks and gravity equals the loss in collisions. The limits are 5 standard errors, and the
-/// energy of the gas. The second limit is much tighter.
+/// kicks, gravity and shear equals the loss in collisions. The limits are 5 standard errors, and
+/// the energy of the gas. The second limit is much tighter.
 void check_energy_balance(const Measured& measured, int count);
 
 /// The compressibility of the fluid of elastic hard spheres: the power series in phi/(1 - phi) of

@@ -34,7 +34,7 @@ double encounter(const Flight<2>& a, const Flight<2>& b, const Vec2& shift, doub
   const auto formula =
       gravity == kNone ? pair_contact_time<2, false, double> : pair_contact_time<2, true, double>;
   return formula(a.r.data(), a.v.data(), a.time, b.r.data(), b.v.data(), b.time, shift.data(),
-                 diameter, gravity.data());
+                 diameter, gravity.data(), nullptr);
 }
 
 // Two particles in a box of 10 x 8, after a few collision times, at most one image apart.
@@ -226,7 +226,7 @@ template <bool kFalling, bool kShifted>
   candidates[1].size /= 2;
   const auto self = static_cast<std::uint32_t>(crowd.particles.size() - 1);
   return first_contacts<2, kFalling, kShifted, 2>(crowd.particles.front().flight.r.data(),
-                                                  {self, self}, candidates, crowd.box.data(), 1.0,
+                                                  {self, self}, candidates, {crowd.box.data()}, 1.0,
                                                   gravity.data());
 }
 

@@ -18,6 +18,7 @@ TEST_CASE("Scene file: mistakes are reported with their place and a fix") {
   const std::string top = kParticles + "[walls.top]\nkind = ";
   const std::string snapshot = measure + "estimator = \"snapshot\"\n";
   const std::string start = kParticles + "[particles.start]\n";
+  const std::string sheared = "[box]\nsize = [10, 9]\n[particles]\ncount = 9\n[shear]\nrate = 1\n";
   const std::string divided =
       "[box]\nsize = [10, 4]\n[walls.left]\nkind = \"static\"\n[walls.right]\nkind = "
       "\"static\"\n[particles]\ncount = 9\n";
@@ -169,6 +170,21 @@ TEST_CASE("Scene file: mistakes are reported with their place and a fix") {
        "4:1", "give at most 4"},
       {"[particles]\narea_fraction = 0.95\n", "2:1", "605 particles have no place"},
       {"[particles]\ncount = 2000000000\n", "2:1", "2000000000 particles have no place"},
+      // sheared boxes
+      {sheared + "[walls.left]\n" + fixed + "[walls.right]\n" + fixed, "7:1", "no walls across"},
+      {sheared + "[[obstacle]]\nkind = \"ball\"\ncentre = [3, 3]\nradius = 1\n", "7:3",
+       "no bodies at rest"},
+      {sheared + "[gravity]\nacceleration = [0, -1]\n", "7:1", "no gravity"},
+      {sheared + "[measure]\nfields = [\"density\"]\n", "8:1", "do not know the flow"},
+      {sheared + "[measure]\nobservables = [\"clusters\"]\n", "8:1", "do not know the flow"},
+      {sheared + "[view]\nfield = \"density\"\n", "8:1", "do not know the flow"},
+      {sheared + "[[change]]\ntime = 1\nset = { \"walls.left\" = { kind = \"static\" } }\n", "7:1",
+       "no wall opposite"},
+      {kParticles + "[shear]\n", "3:1", "'shear.rate' is missing"},
+      {"[box]\nsize = [9, 1.9]\n[particles]\ncount = 3\n[shear]\nrate = 1\n", "2:1",
+       "choose a second side of at least 2"},
+      {kParticles + "[[change]]\ntime = 1\nset = { \"shear.rate\" = 1 }\n", "3:1",
+       "while the gas moves"},
       // the sides of a divider: 2.4 x 4 has room for two columns of four
       {divided + "count_left = 2\n", "9:1", "in a box that nothing divides"},
       {divided + "count_left = 10\n[piston]\nposition = 5\nmass = 1\n", "9:1", "at most 9"},

@@ -88,25 +88,56 @@ template <int D>
 void Reference<D>::weigh_pair(std::uint32_t i, std::uint32_t j, double horizon, Next& first) const {
   const Flight<D>& a = flights_[i];
   const Flight<D>& b = flights_[j];
+  const Domain<D>& domain = boundary_.domain();
+  const double distance = grain(i).radius + grain(j).radius;
   const Vec<D> x = a.at(now_, model_.gravity) - b.at(now_, model_.gravity);
   const Vec<D> g = a.velocity_at(now_, model_.gravity) - b.velocity_at(now_, model_.gravity);
   IntVec<D> from = IntVec<D>::Zero(), to = IntVec<D>::Zero();
-  for (int axis = 0; axis < D; ++axis) {
-    if (model_.periodic(axis)) {
-      const double reach =
-          grain(i).radius + grain(j).radius + std::fabs(g[axis]) * (horizon - now_);
-      from[axis] = static_cast<int>(std::floor((-x[axis] - reach) / model_.box[axis])) - 1;
-      to[axis] = static_cast<int>(std::ceil((-x[axis] + reach) / model_.box[axis])) + 1;
-    }
-  }
-  // Lexicographical order: the first axis changes last.
+  const auto set_range = [&](int axis, double place, double way) {
+    if (!model_.periodic(axis)) return;
+    const double reach = distance + std::fabs(way);
+    from[axis] = static_cast<int>(std::floor((-place - reach) / model_.box[axis])) - 1;
+    to[axis] = static_cast<int>(std::ceil((-place + reach) / model_.box[axis])) + 1;
+  };
+  for (int axis = 0; axis < D; ++axis) set_range(axis, x[axis], g[axis] * (horizon - now_));
+  // Lexicographical order: the first axis changes last. In a sheared box it changes first, because
+  // its range depends on the others.
+  const int last = domain.sheared ? 0 : D - 1, least = domain.sheared ? 1 : 0;
   IntVec<D> image = from;
-  while (image[0] <= to[0]) {
-    const Vec<D> shift = image.template cast<double>().cwiseProduct(model_.box);
-    const double distance = grain(i).radius + grain(j).radius;
-    const Event event{contact_time<D>(a, b, shift, distance, model_.gravity), i, j};
+  const auto begin_row = [&] {
+    if (!domain.sheared) return;
+    // The time in which the images are near along the other axes.
+    double begin = now_, end = horizon;
+    for (int axis = 1; axis < D; ++axis) {
+      const double middle = x[axis] + image[axis] * model_.box[axis];
+      if (std::fabs(middle) > distance && g[axis] == 0.0) end = begin;
+      if (g[axis] == 0.0) continue;
+      const double half = 1.01 * distance / std::fabs(g[axis]);
+      begin = std::max(begin, now_ - middle / g[axis] - half);
+      end = std::min(end, now_ - middle / g[axis] + half);
+    }
+    const double speed = g[0] + image[1] * domain.slide;
+    const double place = x[0] + image[1] * (domain.offset + domain.slide * now_);
+    end = std::max(begin, end);
+    set_range(0, place + speed * (0.5 * (begin + end) - now_), 0.5 * speed * (end - begin));
+    image[0] = from[0];
+  };
+  begin_row();
+  while (image[least] <= to[least]) {
+    const Vec<D> boxes = image.template cast<double>();
+    const Event event{contact_time<D>(a, b, domain.shift(boxes), distance, model_.gravity,
+                                      domain.velocity_x(boxes)),
+                      i, j};
     if (event.time < kNever && before(event, first.event)) first = {event, image};
-    for (int axis = D - 1; ++image[axis] > to[axis] && axis > 0; --axis) image[axis] = from[axis];
+    int axis = last;
+    const auto next_axis = [&] {
+      return domain.sheared ? (axis == 0 ? D - 1 : axis - 1) : axis - 1;
+    };
+    while (++image[axis] > to[axis] && axis != least) {
+      image[axis] = from[axis];
+      axis = next_axis();
+    }
+    if (axis != last) begin_row();
   }
 }
 
@@ -277,14 +308,17 @@ void Reference<D>::collide(const Next& next) {
   const Flight<D>&a = flights_[i], &b = flights_[j];
   const Vec<D> r_a = a.at(now_, model_.gravity), r_b = b.at(now_, model_.gravity);
   const Vec<D> v_a = a.velocity_at(now_, model_.gravity), v_b = b.velocity_at(now_, model_.gravity);
-  const Vec<D> x = (r_a - r_b) + next.image.template cast<double>().cwiseProduct(model_.box);
+  const Vec<D> boxes = next.image.template cast<double>();
+  const Vec<D> x = (r_a - r_b) + boundary_.domain().shift(boxes, now_);
+  Vec<D> g = v_a - v_b;
+  if (model_.shear_rate) g[0] += boundary_.domain().velocity_x(boxes);
   const Grain one = grain(i), other = grain(j);
   Exchange<D> gain;
-  if (x.dot(v_a - v_b) < 0.0) {
+  if (x.dot(g) < 0.0) {
     const Spin<D> surface = one.radius * spin(i) + other.radius * spin(j);
     const bool elastic = within_contact_time(i) || within_contact_time(j);
-    gain = pair_outcome<D>(model_.pair(one.species, other.species).contact(), {one, other}, x,
-                           v_a - v_b, surface, elastic)
+    gain = pair_outcome<D>(model_.pair(one.species, other.species).contact(), {one, other}, x, g,
+                           surface, elastic)
                .gain;
   }
   renew(i, r_a, v_a + gain.momentum / one.mass, spin(i) + gain.spins[0]);
@@ -345,18 +379,29 @@ void Reference<D>::kick() {
 template <int D>
 void Reference<D>::renew(std::uint32_t i, const Vec<D>& r, const Vec<D>& v, const Spin<D>& spin) {
   flights_[i] = {wrapped(r), v, now_, flights_[i].number + 1};
+  flights_[i].v[0] -= image_velocity(r);
   if (!spins_.empty()) spins_[i] = spin;
 }
 
 template <int D>
+double Reference<D>::image_velocity(const Vec<D>& r) const {
+  return model_.shear_rate ? std::floor(r[1] / model_.box[1]) * boundary_.domain().slide : 0.0;
+}
+
+// In a sheared box the shift along x is that of all images together, as in Domain.
+template <int D>
 Vec<D> Reference<D>::wrapped(const Vec<D>& r) const {
-  Vec<D> inside = r;
-  for (int axis = 0; axis < D; ++axis) {
-    if (model_.periodic(axis)) {
-      inside[axis] -= std::floor(r[axis] / model_.box[axis]) * model_.box[axis];
+  Vec<D> shift = Vec<D>::Zero();
+  for (int axis = D - 1; axis >= 0; --axis) {
+    if (!model_.periodic(axis)) continue;
+    double slid = 0.0;
+    if (model_.shear_rate && axis == 0) {
+      const Domain<D>& domain = boundary_.domain();
+      slid = std::floor(r[1] / model_.box[1]) * (domain.offset + domain.slide * now_);
     }
+    shift[axis] = std::floor((r[axis] - slid) / model_.box[axis]) * model_.box[axis] + slid;
   }
-  return inside;
+  return r - shift;
 }
 
 template <int D>
@@ -373,8 +418,10 @@ template <int D>
 State<D> Reference<D>::state() const {
   State<D> state;
   for (const Flight<D>& flight : flights_) {
-    state.positions.push_back(wrapped(flight.at(now_, model_.gravity)));
+    const Vec<D> r = flight.at(now_, model_.gravity);
+    state.positions.push_back(wrapped(r));
     state.velocities.push_back(flight.velocity_at(now_, model_.gravity));
+    state.velocities.back()[0] -= image_velocity(r);
   }
   state.spins = spins_;
   if (model_.free_piston) state.piston = {piston_.at(now_), piston_.velocity_at(now_)};

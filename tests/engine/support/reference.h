@@ -78,6 +78,7 @@ class Reference {
   Grain grain(std::uint32_t i) const { return grains_.empty() ? model_.grain() : grains_[i]; }
   void renew(std::uint32_t i, const Vec<D>& r, const Vec<D>& v, const Spin<D>& spin);
   Vec<D> wrapped(const Vec<D>& r) const;
+  double image_velocity(const Vec<D>& r) const;
   void move_base();
 
   Model<D> model_;
