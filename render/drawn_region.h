@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "engine/picture/snapshot.h"
@@ -24,6 +25,14 @@ DrawnRegion drawn_region(const Snapshot& snapshot, const std::optional<Slab>& sl
 /// Calls `visit` with the position of each image of a sphere that reaches into the box.
 template <class Visit>
 void visit_images(const Snapshot& snapshot, const Vec3& position, double radius, Visit visit) {
+  // Images above and below in a sheared box have slid along x.
+  const auto above = [&](auto&& self, const Vec3& place, double boxes) -> void {
+    Vec3 image = place;
+    image[1] += boxes * snapshot.box[1];
+    image[0] += boxes * snapshot.offset;
+    image[0] -= std::floor(image[0] / snapshot.box[0]) * snapshot.box[0];
+    self(self, 0, image);
+  };
   const auto shifted = [&](auto&& self, int axis, const Vec3& place) -> void {
     if (axis == 3) return visit(place);
     self(self, axis + 1, place);
@@ -39,7 +48,21 @@ void visit_images(const Snapshot& snapshot, const Vec3& position, double radius,
     }
     self(self, axis + 1, image);
   };
-  shifted(shifted, 0, position);
+  if (snapshot.slide == 0.0 && snapshot.offset == 0.0) return shifted(shifted, 0, position);
+  const auto level = [&](auto&& self, int axis, const Vec3& place) -> void {
+    if (axis == 1) axis = 2;
+    if (axis == 3) return visit(place);
+    self(self, axis + 1, place);
+    if (snapshot.walls[2 * axis]) return;
+    const double length = snapshot.box[axis];
+    if (place[axis] >= radius && place[axis] <= length - radius) return;
+    Vec3 image = place;
+    image[axis] += place[axis] < radius ? length : -length;
+    self(self, axis + 1, image);
+  };
+  above(level, position, 0.0);
+  if (position[1] < radius) above(level, position, 1.0);
+  if (position[1] > snapshot.box[1] - radius) above(level, position, -1.0);
 }
 
 }  // namespace clatter

@@ -76,10 +76,13 @@ Vec3 in_space(const VecX& position) {
 
 VecX nearest_image(const Snapshot& snapshot, const VecX& position, const VecX& particle) {
   VecX image = particle;
+  if (snapshot.slide != 0.0 || snapshot.offset != 0.0) {
+    image[0] -= snapshot.offset * std::round((particle[1] - position[1]) / snapshot.box[1]);
+  }
   for (int axis = 0; axis < position.size(); ++axis) {
     if (snapshot.walls[2 * axis]) continue;
     const double length = snapshot.box[axis];
-    image[axis] -= length * std::round((particle[axis] - position[axis]) / length);
+    image[axis] -= length * std::round((image[axis] - position[axis]) / length);
   }
   return image;
 }

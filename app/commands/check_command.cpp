@@ -111,6 +111,12 @@ void print_piston(const Scene& scene) {
                std::string(name_of(scene.piston->axis, kAxes)).c_str(), sides.c_str());
 }
 
+void print_shear(const Scene& scene) {
+  if (!scene.shear_rate) return;
+  std::fprintf(stderr, "Shear: a flow along x at the rate %s; the gas runs on one thread.\n",
+               number_text(*scene.shear_rate).c_str());
+}
+
 void print_packing(const Scene& scene) {
   const double most = compressed_fraction(scene), closest = closest_packing(scene.dimension());
   if (most <= closest) return;
@@ -140,6 +146,7 @@ int check(const CommonOptions& options) {
   print_packing(scene);
   print_fixtures(scene);
   print_piston(scene);
+  print_shear(scene);
   print_allocation();
   print_way(scene);
   print_parts(scene);

@@ -353,6 +353,10 @@ void add_sweep_command(CLI::App& program, int& exit_code) {
             "Measure and draw how unequal two compartments of a shaken gas become, against its "
             "restitution.",
             demon_study);
+  add_study(*sweep, exit_code, "shear",
+            "Measure and draw the temperature and the viscosity of a sheared gas against its "
+            "restitution, with the theories.",
+            shear_study);
 }
 
 }  // namespace clatter

@@ -37,7 +37,16 @@ std::vector<std::pair<std::string, Estimate>> estimates_of(const Measured& measu
   add("energy.bulk_in", measured.bulk_in);
   add("energy.nudges_in", measured.nudges_in);
   add("energy.gravity_in", measured.gravity_in);
+  add("energy.shear_in", measured.shear_in);
   add("energy.dissipated", measured.dissipated);
+  if (const auto& shear = measured.shear) {
+    add("shear.stress_xx", shear->stress[0][0]);
+    add("shear.stress_yy", shear->stress[1][1]);
+    add("shear.stress_yx", shear->stress[1][0]);
+    add("shear.stress_xy", shear->stress[0][1]);
+    add("shear.power", measured.shear_in);
+    add("shear.viscosity", shear->viscosity);
+  }
   for (std::size_t side = 0; side < measured.pressure.size(); ++side) {
     add("pressure." + std::string(kSideNames[side]), measured.pressure[side]);
   }

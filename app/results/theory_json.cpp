@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/results/mixture_theory_json.h"
+#include "engine/physics/shear_theory.h"
 
 namespace clatter {
 
@@ -119,7 +120,8 @@ static void add_vibrated(Json& json, const VibratedGas& gas, double start_temper
 static bool is_homogeneous_gas(const Scene& scene) {
   const bool walled =
       std::ranges::any_of(scene.walls, [](const auto& wall) { return wall.has_value(); });
-  return !walled && !is_divided(scene) && scene.particles.count > 1 && !scene.gravity;
+  return !walled && !is_divided(scene) && scene.particles.count > 1 && !scene.gravity &&
+         !scene.shear_rate;
 }
 
 bool cools_freely(const Scene& scene) {
@@ -179,6 +181,24 @@ double collision_rate(const Scene& scene, double temperature) {
   return gas.components.empty() ? 0.0 : sum / gas.count();
 }
 
+// The steady state of a sheared gas, of smooth particles.
+static void add_shear(Json& json, const Scene& scene) {
+  const double phi = scene.packing_fraction(), alpha = scene.particles.restitution;
+  const double rate = *scene.shear_rate;
+  const int dimension = scene.dimension();
+  if (scene.spins() || scene.bulk_drive || !(alpha > 0.0 && alpha < 1.0) || rate == 0.0) return;
+  const ShearTheory grad = grad_shear(phi, alpha, rate, dimension);
+  const double dense = enskog_shear_temperature(phi, alpha, rate, dimension);
+  const double pressure = phi / packing_fraction(dimension, 1.0) * grad.temperature;
+  json["temperature_grad"] = grad.temperature;
+  json["temperature_enskog"] = dense;
+  json["viscosity_grad"] = -grad.stress_yx * pressure / rate;
+  json["viscosity_enskog"] = enskog_viscosity(phi, dense, dimension);
+  json["stress_xx_grad"] = -grad.stress_xx * pressure;
+  json["stress_yy_grad"] = -grad.stress_yy * pressure;
+  json["stress_yx_grad"] = -grad.stress_yx * pressure;
+}
+
 Json theory_json(const Scene& scene) {
   if (!scene.species.empty()) return mixture_theory_json(scene);
   Json json{{"chi", contact_correlation(scene.packing_fraction(), scene.dimension())}};
@@ -186,6 +206,7 @@ Json theory_json(const Scene& scene) {
     add_vibrated(json, *gas, scene.particles.start.temperature);
   }
   if (is_homogeneous_gas(scene)) add_homogeneous(json, scene);
+  if (scene.shear_rate && scene.particles.count > 1) add_shear(json, scene);
   if (const auto gas = two_compartments(scene)) json["imbalance"] = 2.0 * gas->fuller_share() - 1.0;
   return json;
 }

@@ -109,7 +109,7 @@ bool EventRecorder<D>::selects(const ParticleChange<D>& first, const ParticleCha
     return std::ranges::find(selection_.particles, change.particle) != selection_.particles.end();
   };
   const auto inside = [&](const ParticleChange<D>& change) {
-    const Vec<D> place = simulation_.model().domain().wrapped(change.position);
+    const Vec<D> place = simulation_.domain().wrapped(change.position);
     for (int axis = 0; axis < D; ++axis) {
       const auto low = static_cast<std::size_t>(2 * axis);
       if (place[axis] < selection_.region[low] || place[axis] > selection_.region[low + 1]) {

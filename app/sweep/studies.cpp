@@ -193,6 +193,50 @@ zip = [["bulk_drive.kick_speed", "measure.burn_in", "measure.duration"]]
   return study;
 }
 
+// The rate is 1, so temperatures and viscosities are those over its square and over itself. The gas
+// begins near its steady state.
+Study shear_study(int dimension) {
+  const bool disks = dimension == 2;
+  Study study;
+  study.sweep = fmt::format(
+      R"(# The temperature and the viscosity of a steady shear flow, against the restitution of the grains.
+scene = "shear"
+replicas = 4
+
+[set]
+"box.size" = {}
+"shear.rate" = 1.0
+"particles.start.temperature" = 10.0
+"measure.burn_in" = 50.0
+"measure.duration" = 300.0
+
+[axes]
+"particles.restitution" = {{ from = 0.6, to = 0.98, count = 9 }}
+"particles.count" = {}
+)",
+      disks ? "[60.0, 60.0]" : "[18.0, 18.0, 18.0]", disks ? "[90, 1350]" : "[220, 3350]");
+  const auto chart = [](const std::string& name, const std::string& y, const std::string& label,
+                        const std::string& title, const std::string& caption) {
+    return StudyChart{name,
+                      {.x = "particles.restitution",
+                       .y = y,
+                       .by = "particles.count",
+                       .log_y = true,
+                       .theory = true,
+                       .y_label = label,
+                       .title = title,
+                       .caption = caption}};
+  };
+  study.charts = {
+      chart("temperature", "temperature", "T/G²", "The temperature of a sheared gas",
+            "Collisions balance the work of the shear. Grad's theory is that of a dilute gas, "
+            "Enskog's that of a nearly elastic one."),
+      chart("viscosity", "shear.viscosity", "viscosity/G", "The viscosity of a sheared gas",
+            "The stress over the shear rate. Grad's theory is that of a dilute gas, Enskog's that "
+            "of a nearly elastic one.")};
+  return study;
+}
+
 // Each replica chooses one of the halves by chance, so the imbalance is the magnitude of the
 // difference. Near the transition a gas needs long to split.
 Study demon_study(int dimension) {

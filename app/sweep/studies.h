@@ -31,6 +31,10 @@ Study rough_study(int dimension);
 /// gas that cools and in a gas that is kicked (theory 12).
 Study mixture_study(int dimension);
 
+/// Temperature and viscosity of a steady shear flow against the restitution, in a dilute and in a
+/// dense gas, with the theories of both (theory 14).
+Study shear_study(int dimension);
+
 /// Imbalance of two compartments over a driven floor against the restitution (theory 13).
 Study demon_study(int dimension);
 

@@ -99,11 +99,15 @@ struct Theory {
   LineStyle style;
 };
 
-constexpr std::array<Theory, 7> kTheories = {
+constexpr std::array<Theory, 11> kTheories = {
     {{"temperature", "", "theory.temperature_simple", "simple theory", LineStyle::Dotted},
      {"temperature", "", "theory.temperature_refined", "refined theory", LineStyle::Dashed},
      {"temperature", "", "theory.temperature_corrected", "corrected theory", LineStyle::Solid},
      {"temperature", "", "theory.temperature_driven", "kinetic theory", LineStyle::Solid},
+     {"temperature", "", "theory.temperature_grad", "Grad's theory", LineStyle::Dashed},
+     {"temperature", "", "theory.temperature_enskog", "Enskog's theory", LineStyle::Dotted},
+     {"shear.viscosity", "", "theory.viscosity_grad", "Grad's theory", LineStyle::Dashed},
+     {"shear.viscosity", "", "theory.viscosity_enskog", "Enskog's theory", LineStyle::Dotted},
      {"spin_temperature", "temperature", "theory.temperature_ratio", "kinetic theory",
       LineStyle::Solid},
      {"pressure.virial", "", "theory.compressibility", "kinetic theory", LineStyle::Solid},

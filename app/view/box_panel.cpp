@@ -236,11 +236,20 @@ void box_panel(Session& session, Controls& controls) {
     if (side % 2 == 1 && !scene.walls[side]) continue;
     side_panel(session, controls, side);
   }
+  if (scene.shear_rate) {
+    controls.law({.key = "shear.rate",
+                  .name = "Shear rate",
+                  .symbol = "G",
+                  .unit = "1/t",
+                  .help = "Velocity gradient of the flow along x",
+                  .low = -1.0},
+                 *scene.shear_rate, usual.shear_rate.value_or(0.0));
+  }
   const auto gravity_of = [&](const Scene& which) -> VecX {
     if (which.gravity) return *which.gravity;
     return VecX::Zero(dimension);
   };
-  for (int axis = 0; axis < dimension; ++axis) {
+  for (int axis = 0; axis < dimension && !scene.shear_rate; ++axis) {
     controls.component({.key = "gravity.acceleration",
                         .name = kGravities[axis],
                         .symbol = kAccelerations[axis],

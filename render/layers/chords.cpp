@@ -16,8 +16,8 @@ struct Way {
   Vec2 high() const { return start.cwiseMax(end); }
 };
 
-// Calls `visit` with each shift along an axis, a multiple of the box length, for which a disk of
-// this radius touches the box or a copy on its way. The way must not be longer than the box.
+// Calls `visit` with each number of box lengths along an axis for which a disk of this radius
+// touches the box or a copy on its way. The way must not be longer than the box.
 template <class Visit>
 void visit_shifts(const Snapshot& snapshot, const Tiling& tiling, int axis, const Way& way,
                   double radius, Visit visit) {
@@ -27,7 +27,7 @@ void visit_shifts(const Snapshot& snapshot, const Tiling& tiling, int axis, cons
   const double first = std::floor((low - way.high()[axis] - radius) / box) + 1.0;
   const double last = std::min(first + tiling.last[axis] - tiling.first[axis] + 2.0,
                                std::ceil((high - way.low()[axis] + radius) / box) - 1.0);
-  for (double boxes = first; boxes <= last; ++boxes) visit(boxes * box);
+  for (double boxes = first; boxes <= last; ++boxes) visit(boxes);
 }
 
 class Collector {
@@ -57,13 +57,25 @@ class Collector {
  private:
   void add(std::uint32_t disk, const Way& way, double from, double to) {
     const double radius = snapshot_.radius(disk);
-    visit_shifts(snapshot_, tiling_, 0, way, radius, [&](double dx) {
-      visit_shifts(snapshot_, tiling_, 1, way, radius, [&](double dy) {
-        const Vec2 shift(dx, dy);
-        const Chord chord{disk, projection_.pixels(way.start + shift),
-                          projection_.pixels(way.end + shift), from, to};
-        if (in_sight(chord)) chords.push_back(chord);
+    const auto show = [&](const Way& at, double across, double above) {
+      const Vec2 shift(across * snapshot_.box[0], above * snapshot_.box[1]);
+      const Chord chord{disk, projection_.pixels(at.start + shift),
+                        projection_.pixels(at.end + shift), from, to};
+      if (in_sight(chord)) chords.push_back(chord);
+    };
+    if (snapshot_.slide == 0.0 && snapshot_.offset == 0.0) {
+      visit_shifts(snapshot_, tiling_, 0, way, radius, [&](double across) {
+        visit_shifts(snapshot_, tiling_, 1, way, radius,
+                     [&](double above) { show(way, across, above); });
       });
+      return;
+    }
+    visit_shifts(snapshot_, tiling_, 1, way, radius, [&](double above) {
+      Way slid = way;
+      slid.start.x() += above * (snapshot_.offset + snapshot_.slide * from);
+      slid.end.x() += above * (snapshot_.offset + snapshot_.slide * to);
+      visit_shifts(snapshot_, tiling_, 0, slid, radius,
+                   [&](double across) { show(slid, across, above); });
     });
   }
 

@@ -55,14 +55,13 @@ double largest_point_of(const Gl& gl) {
 template <class Visit>
 void visit_disks(const Snapshot& snapshot, const Projection& projection, const Tiling& tiling,
                  Visit visit) {
-  // Calls `shifted` with the shifts along an axis of a disk and its periodic images.
+  // Calls `shifted` with the boxes along an axis between a disk and its periodic images.
   auto shifts = [&](int axis, double place, double radius, auto&& shifted) {
     const int first = tiling.first[axis], last = tiling.last[axis];
-    const double length = snapshot.box[axis];
-    for (int copy = first; copy <= last; ++copy) shifted(copy * length);
+    for (int copy = first; copy <= last; ++copy) shifted(copy);
     if (snapshot.walls[2 * axis]) return;
-    if (place < radius) shifted((last + 1) * length);
-    if (place > length - radius) shifted((first - 1) * length);
+    if (place < radius) shifted(last + 1);
+    if (place > snapshot.box[axis] - radius) shifted(first - 1);
   };
 
   const bool alike = snapshot.grains.empty();
@@ -74,11 +73,21 @@ void visit_disks(const Snapshot& snapshot, const Projection& projection, const T
       radius = snapshot.radius(i);
       sight = Sight(projection, radius * projection.scale());
     }
-    shifts(0, place.x(), radius, [&](double dx) {
-      shifts(1, place.y(), radius, [&](double dy) {
-        const Vec2 centre = projection.pixels(place + Vec2(dx, dy));
-        if (sight.contains(centre)) visit(centre, i);
+    const auto show = [&](const Vec2& at, int across, int above) {
+      const Vec2 centre =
+          projection.pixels(at + Vec2(across * snapshot.box[0], above * snapshot.box[1]));
+      if (sight.contains(centre)) visit(centre, i);
+    };
+    if (snapshot.slide == 0.0 && snapshot.offset == 0.0) {
+      shifts(0, place.x(), radius, [&](int across) {
+        shifts(1, place.y(), radius, [&](int above) { show(place, across, above); });
       });
+      continue;
+    }
+    shifts(1, place.y(), radius, [&](int above) {
+      Vec2 slid(place.x() + above * snapshot.offset, place.y());
+      slid.x() -= std::floor(slid.x() / snapshot.box[0]) * snapshot.box[0];
+      shifts(0, slid.x(), radius, [&](int across) { show(slid, across, above); });
     });
   }
 }

@@ -14,7 +14,7 @@ TEST_CASE("Commands: scenes lists the gallery, one valid scene a line, with titl
   const Outcome outcome = shell.run("clatter scenes");
   CHECK(outcome.code == 0);
   CHECK(outcome.err.empty());
-  CHECK(std::ranges::count(outcome.out, '\n') == 32);
+  CHECK(std::ranges::count(outcome.out, '\n') == 33);
   // The first scenes explain themselves.
   CHECK(shell.run("clatter scenes | cut -d' ' -f1 | head -3").out == "cradle\nshaker\nvibrated\n");
   const std::size_t column = std::string("spheres_leidenfrost  ").size();

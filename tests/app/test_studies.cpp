@@ -44,7 +44,8 @@ TEST_CASE("Studies: all points are valid scenes") {
     CAPTURE(dimension);
     for (const auto& [study, points] :
          {std::pair(temperature_study(dimension), 35), std::pair(rough_study(dimension), 39),
-          std::pair(mixture_study(dimension), 14), std::pair(demon_study(dimension), 39)}) {
+          std::pair(mixture_study(dimension), 14), std::pair(demon_study(dimension), 39),
+          std::pair(shear_study(dimension), 18)}) {
       CAPTURE(study.sweep);
       Sweep sweep;
       CHECK(refusal_of([&] {
