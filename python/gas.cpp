@@ -173,7 +173,7 @@ class Collisions final : private Observer<D> {
   void on_wall(const WallCollision<D>& collision) override { add(collision); }
   template <class Collision>
   void add(const Collision& collision) {
-    append_record<D>(records, simulation_.model(), simulation_.time(), collision, spins_);
+    append_record<D>(records, simulation_.domain(), simulation_.time(), collision, spins_);
   }
 
   const Simulation<D>& simulation_;

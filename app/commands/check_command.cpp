@@ -51,7 +51,8 @@ void print_way(const Scene& scene) {
     return std::ranges::any_of(partition.holes,
                                [](const Hole& hole) { return hole.valve.has_value(); });
   };
-  const bool whole = scene.piston || std::ranges::any_of(scene.partitions, has_valve);
+  const bool whole =
+      scene.piston || scene.shear_rate || std::ranges::any_of(scene.partitions, has_valve);
   if (whole || !runs_in_tiles(scene.dimension(), particles, processors())) return;
   std::fputs(watched_runs_in_tiles(processors())
                  ? "Runs in tiles on several threads.\n"

@@ -148,7 +148,14 @@ void prepare_outputs(const MeasureOptions& options, const Scene& scene,
   }
   if (!options.out.empty()) require_writable_file(options.out, "--out");
   if (!options.hdf5.empty()) require_writable_file(options.hdf5, "--hdf5");
-  if (!options.save_state.empty()) require_writable_file(options.save_state, "--save-state");
+  if (!options.save_state.empty()) {
+    if (scene.shear_rate) {
+      throw UserError({"--save-state", 0, 0},
+                      "a start state has no images that have slid, as those of a sheared box have",
+                      "remove --save-state; --checkpoint continues the run");
+    }
+    require_writable_file(options.save_state, "--save-state");
+  }
   if (!options.trajectory.empty()) {
     trajectory_format(options.trajectory, "--trajectory");
     if (scene.shear_rate) {

@@ -133,6 +133,7 @@ void History::add(const Frame& frame) {
   sample.bulk_in = (frame.tally.bulk_in - last_.bulk_in) / span;
   sample.nudges_in = (frame.tally.nudges_in - last_.nudges_in) / span;
   sample.gravity_in = (frame.tally.gravity_in - last_.gravity_in) / span;
+  sample.shear_in = (frame.tally.shear_in - last_.shear_in) / span;
   sample.dissipated = (frame.tally.dissipated - last_.dissipated) / span;
   sample.ledger_residual = std::fabs(frame.ledger_residual);
   sample.deepest_overlap = frame.deepest_overlap;
@@ -171,6 +172,7 @@ void History::thin_out() {
                        .bulk_in = mean(&Sample::bulk_in),
                        .nudges_in = mean(&Sample::nudges_in),
                        .gravity_in = mean(&Sample::gravity_in),
+                       .shear_in = mean(&Sample::shear_in),
                        .dissipated = mean(&Sample::dissipated),
                        .ledger_residual = larger(&Sample::ledger_residual),
                        .deepest_overlap = larger(&Sample::deepest_overlap),

@@ -21,6 +21,7 @@ struct Sample {
   double bulk_in = 0.0;                          ///< power of the bulk drive
   double nudges_in = 0.0;                        ///< power of nudges
   double gravity_in = 0.0;                       ///< power of gravity
+  double shear_in = 0.0;                         ///< power of the shear
   double dissipated = 0.0;                       ///< dissipated power
   double ledger_residual = 0.0;                  ///< magnitude of Totals::ledger_residual()
   double deepest_overlap = 0.0;                  ///< see RunChecks
@@ -34,12 +35,12 @@ struct Sample {
 /// Visits all members, in order, for checkpoints.
 template <class Archive>
 void visit(Archive& io, Sample& sample) {
-  auto& [time, temperature, spin_temperature, walls_in, bulk_in, nudges_in, gravity_in, dissipated,
-         ledger_residual, deepest_overlap, species_temperature, share_left, piston, mixing] =
-      sample;
-  io(time, temperature, spin_temperature, walls_in, bulk_in, nudges_in, gravity_in, dissipated,
-     ledger_residual, deepest_overlap, species_temperature, share_left, piston, mixing.lacey,
-     mixing.entropy, mixing.random_entropy);
+  auto& [time, temperature, spin_temperature, walls_in, bulk_in, nudges_in, gravity_in, shear_in,
+         dissipated, ledger_residual, deepest_overlap, species_temperature, share_left, piston,
+         mixing] = sample;
+  io(time, temperature, spin_temperature, walls_in, bulk_in, nudges_in, gravity_in, shear_in,
+     dissipated, ledger_residual, deepest_overlap, species_temperature, share_left, piston,
+     mixing.lacey, mixing.entropy, mixing.random_entropy);
 }
 
 /// Histogram of the velocities over the last seconds, with bins of equal width.

@@ -99,7 +99,7 @@ LivePlot energy_plot(const std::vector<Sample>& samples, double count, Colour pl
     plot.span = std::max(plot.span, kShare * count * sample.temperature.mean());
   }
   const auto in = [](const Sample& s) {
-    return s.walls_in + s.bulk_in + s.nudges_in + s.gravity_in;
+    return s.walls_in + s.bulk_in + s.nudges_in + s.gravity_in + s.shear_in;
   };
   plot.curves = {
       over_time("in", kOrange, samples, in),

@@ -74,13 +74,13 @@ std::size_t record_size(const std::vector<EventQuantity>& quantities) {
 }
 
 template <int D>
-void append_record(std::vector<double>& records, const Model<D>& model, double time,
+void append_record(std::vector<double>& records, const Domain<D>& domain, double time,
                    const PairCollision<D>& collision, bool spins) {
   const auto& [first, second] = collision.particles;
   records.insert(records.end(), {time, 0.0, static_cast<double>(first.particle),
                                  static_cast<double>(second.particle)});
-  add(records, model.domain().wrapped(first.position));
-  add(records, model.domain().wrapped(second.position));
+  add(records, domain.wrapped(first.position));
+  add(records, domain.wrapped(second.position));
   add(records, first.velocity);
   add(records, first.velocity_after());
   add(records, second.velocity);
@@ -92,7 +92,7 @@ void append_record(std::vector<double>& records, const Model<D>& model, double t
 }
 
 template <int D>
-void append_record(std::vector<double>& records, const Model<D>& model, double time,
+void append_record(std::vector<double>& records, const Domain<D>& domain, double time,
                    const WallCollision<D>& collision, bool spins) {
   const ParticleChange<D>& change = collision.particle;
   // A box with a piston has no fixtures.
@@ -100,7 +100,7 @@ void append_record(std::vector<double>& records, const Model<D>& model, double t
   records.insert(records.end(), {time, collision.at_wall() ? 1.0 + collision.side : 7.0 + fixture,
                                  static_cast<double>(change.particle), -1.0});
   const Vec<D> none = Vec<D>::Constant(kNone);
-  add(records, model.domain().wrapped(change.position));
+  add(records, domain.wrapped(change.position));
   add(records, none);
   add(records, change.velocity);
   add(records, change.velocity_after());
@@ -219,13 +219,13 @@ void write_event_file(const std::filesystem::path& path, const std::filesystem::
   });
 }
 
-template void append_record<2>(std::vector<double>&, const Model<2>&, double,
+template void append_record<2>(std::vector<double>&, const Domain<2>&, double,
                                const PairCollision<2>&, bool);
-template void append_record<3>(std::vector<double>&, const Model<3>&, double,
+template void append_record<3>(std::vector<double>&, const Domain<3>&, double,
                                const PairCollision<3>&, bool);
-template void append_record<2>(std::vector<double>&, const Model<2>&, double,
+template void append_record<2>(std::vector<double>&, const Domain<2>&, double,
                                const WallCollision<2>&, bool);
-template void append_record<3>(std::vector<double>&, const Model<3>&, double,
+template void append_record<3>(std::vector<double>&, const Domain<3>&, double,
                                const WallCollision<3>&, bool);
 
 }  // namespace clatter

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/dynamics/observer.h"
-#include "engine/laws/model.h"
+#include "engine/laws/domain.h"
 #include "engine/physics/grain.h"
 
 namespace clatter {
@@ -37,11 +37,11 @@ std::size_t record_size(const std::vector<EventQuantity>& quantities);
 /// Appends the record of a collision of two particles, at a simulation time. Positions are wrapped
 /// into the box.
 template <int D>
-void append_record(std::vector<double>& records, const Model<D>& model, double time,
+void append_record(std::vector<double>& records, const Domain<D>& domain, double time,
                    const PairCollision<D>& collision, bool spins);
 /// Appends the record of a hit of a wall. Quantities of the partner are NaN.
 template <int D>
-void append_record(std::vector<double>& records, const Model<D>& model, double time,
+void append_record(std::vector<double>& records, const Domain<D>& domain, double time,
                    const WallCollision<D>& collision, bool spins);
 
 /// The lines of a CSV before the events: units, then names of the columns.

@@ -190,7 +190,7 @@ Json mixture_theory_json(const Scene& scene) {
   const bool rubs = any_pair(scene, [](const PairLaw& law) {
     return law.roughness.any() && !std::isinf(law.roughness.friction_in_force());
   });
-  if (walled || scene.gravity || gas.count() < 2.0 || rubs) return json;
+  if (walled || scene.gravity || scene.shear_rate || gas.count() < 2.0 || rubs) return json;
   const bool kicked =
       scene.bulk_drive && (scene.bulk_drive->kick_speed > 0.0 || scene.bulk_drive->kick_spin > 0.0);
   if (kicked) {

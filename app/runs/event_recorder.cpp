@@ -128,13 +128,13 @@ template <int D>
 void EventRecorder<D>::on_collision(const PairCollision<D>& collision) {
   const auto& [first, second] = collision.particles;
   if (!selects(first, &second)) return;
-  append_record<D>(records_, simulation_.model(), simulation_.time(), collision, spins_);
+  append_record<D>(records_, simulation_.domain(), simulation_.time(), collision, spins_);
 }
 
 template <int D>
 void EventRecorder<D>::on_wall(const WallCollision<D>& collision) {
   if (!selects(collision.particle, nullptr)) return;
-  append_record<D>(records_, simulation_.model(), simulation_.time(), collision, spins_);
+  append_record<D>(records_, simulation_.domain(), simulation_.time(), collision, spins_);
 }
 
 template <int D>

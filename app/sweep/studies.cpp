@@ -193,8 +193,7 @@ zip = [["bulk_drive.kick_speed", "measure.burn_in", "measure.duration"]]
   return study;
 }
 
-// The rate is 1, so temperatures and viscosities are those over its square and over itself. The gas
-// begins near its steady state.
+// The rate is 1. The gas begins near its steady state.
 Study shear_study(int dimension) {
   const bool disks = dimension == 2;
   Study study;

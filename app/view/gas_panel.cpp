@@ -82,9 +82,10 @@ void gas_panel(Session& session, Controls& controls) {
                        std::ranges::all_of(scene.pairs, [](const SpeciesPair& pair) {
                          return pair.restitution.value_or(1.0) == 1.0;
                        });
-  if (elastic && controls.button("reverse", "Reverse velocities",
-                                 "Changes the signs of all velocities and spins: the gas runs "
-                                 "back")) {
+  if (elastic && !scene.shear_rate &&
+      controls.button("reverse", "Reverse velocities",
+                      "Changes the signs of all velocities and spins: the gas runs "
+                      "back")) {
     session.reverse();
   }
 }

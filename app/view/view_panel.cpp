@@ -183,13 +183,15 @@ void view_panel(Session& session, Controls& controls) {
                               .help = "Of the particles; 0: none, the heatmap alone",
                               .format = "%.2f"},
                              view.opacity, usual.opacity);
-  changed |= choose_heatmap(session, controls, view);
+  const bool sheared = session.scene().shear_rate.has_value();
+  if (!sheared) changed |= choose_heatmap(session, controls, view);
   if (!disks && view.field) {
     changed |= choose_volume(session, controls, view);
     changed |= choose_slices(session, controls, view);
   }
-  changed |= choose(controls, "view.arrows", "Arrows", "A field with a direction", kArrows, "none",
-                    view.arrows, usual.arrows);
+  if (!sheared)
+    changed |= choose(controls, "view.arrows", "Arrows", "A field with a direction", kArrows,
+                      "none", view.arrows, usual.arrows);
   changed |= choose_trails(controls, view.trails, usual.trails);
   if (view.tracer) changed |= choose_path(controls, *view.tracer, usual.tracer);
   changed |= choose(controls, "view.theme", "Theme",

@@ -168,10 +168,9 @@ class CellGrid {
     const auto [axis, step] = crossing_of(border);
     return slides_ && axis == 1 && (step > 0 ? cell[1] == counts_[1] - 1 : cell[1] == 0);
   }
-  /// Calls visit(list, image) for the lists of cells beyond the border of a sheared box that may
-  /// touch a particle in a cell at this border between two times. `image` is the periodic image of
-  /// the list's cell, in box lengths. A particle may be on several of these lists. `domain` has the
-  /// offset of time 0.
+  /// Calls visit(list, image) for lists beyond the border of a sheared box. They have all particles
+  /// that may touch one in a cell at this border between two times, some of them twice. `image` is
+  /// the periodic image of the list's cell, in box lengths. `domain` has the offset of time 0.
   template <typename Visit>
   void visit_across(const IntVec<D>& cell, const Domain<D>& domain, double from, double to,
                     const Visit& visit) const;
@@ -300,8 +299,8 @@ void CellGrid<D>::visit_wide(const IntVec<D>& cell, int reach, const Visit& visi
   }
 }
 
-// The cell of a particle beyond the border, shifted by the offset f in cells, is less than two
-// cells from this one along x: a diameter and the overhangs of both fit into a cell.
+// A diameter and the overhangs of both cells fit into a cell. So the cell of a particle that
+// touches is less than two cells from this one along x, at the place to which it has slid.
 template <int D>
 template <typename Visit>
 void CellGrid<D>::visit_across(const IntVec<D>& cell, const Domain<D>& domain, double from,
@@ -309,7 +308,8 @@ void CellGrid<D>::visit_across(const IntVec<D>& cell, const Domain<D>& domain, d
   for (const int above : {1, -1}) {
     if (cell[1] != (above > 0 ? counts_[1] - 1 : 0)) continue;
     const double first = above * (domain.offset + domain.slide * from) / widths_[0];
-    const double last = above * (domain.offset + domain.slide * to) / widths_[0];
+    const double last =
+        domain.slide == 0.0 ? first : above * (domain.offset + domain.slide * to) / widths_[0];
     const double low = std::floor(cell[0] - 2.0 - std::max(first, last)) + 1.0;
     const double high = std::ceil(cell[0] + 2.0 - std::min(first, last)) - 1.0;
     IntVec<D> at = cell, image = IntVec<D>::Zero();
@@ -370,7 +370,7 @@ template <bool kFalling>
     upper[axis] = flight.v[axis] >= 0.0;
     place[axis] = border(axis, cell[axis], upper[axis]);
   }
-  const Vec<D> way = place + model.domain().shift(image) - flight.r;
+  const Vec<D> way = place + image.cwiseProduct(model.box) - flight.r;
   // v + 0.0 turns -0 into +0: a particle at rest reaches its upper border at time infinity.
   const Vec<D> time = flight.time + way.array() / (flight.v.array() + 0.0);
   std::array<Exit, D> exits;

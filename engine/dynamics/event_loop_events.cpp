@@ -33,7 +33,9 @@ void EventLoop<D>::enter_next_cell(std::uint32_t number) {
 // another place and velocity. Returns false for an exit to another cell of the box.
 template <int D>
 bool EventLoop<D>::cross_sheared(std::uint32_t number) {
+  constexpr double kMostLengths = 1e6;  // of the box, so that their numbers are ints
   Plan<D>& plan = plans_[number];
+  if (std::fabs(domain_.slide) * now_ > kMostLengths * domain_.box[0]) until_base_moves_ = 0;
   if (plan.partner == kLookAcross) return true;
   if (!near_.slides_over(plan.cell, plan.partner)) return false;
   Vec<D> boxes = crossing_of(plan.partner).step * Vec<D>::Unit(1);

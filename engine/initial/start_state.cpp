@@ -425,12 +425,7 @@ class StartWork : public StartMaker::Work {
   AnyState take() override {
     if (is_from_file()) return std::get<State<D>>(scene_.particles.start.state);
     State<D> state = beside_the_flow();
-    if (scene_.shear_rate) {
-      const Domain<D> domain = model_of<D>(scene_, seed_).domain();
-      for (std::size_t i = 0; i < state.positions.size(); ++i) {
-        state.velocities[i] += domain.flow(state.positions[i]);
-      }
-    }
+    if (scene_.shear_rate) add_flow(state, model_of<D>(scene_, seed_).domain(), 1.0);
     return state;
   }
 

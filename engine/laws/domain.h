@@ -2,8 +2,10 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "engine/physics/flight.h"
+#include "engine/physics/state.h"
 #include "engine/vec.h"
 
 namespace clatter {
@@ -57,8 +59,14 @@ struct Domain {
   /// The shortest way between the images of two points, from any way between them.
   Vec<D> shortest(Vec<D> way) const {
     if (sheared) {
-      const double images = std::round(way[1] / box[1]);
-      way[0] -= images * offset;
+      // The nearest image along y may be farther than the next, which has slid.
+      const double middle = std::round(way[1] / box[1]);
+      Vec<D> best = through(way, middle);
+      for (const double images : {middle - 1.0, middle + 1.0}) {
+        const Vec<D> other = through(way, images);
+        if (other.squaredNorm() < best.squaredNorm()) best = other;
+      }
+      return best;
     }
     for (int axis = 0; axis < D; ++axis) {
       if (periodic[axis]) way[axis] -= box[axis] * std::round(way[axis] / box[axis]);
@@ -84,6 +92,14 @@ struct Domain {
   }
 
  private:
+  // The shortest of the ways through so many images along y.
+  Vec<D> through(Vec<D> way, double images) const {
+    way -= shift(images * Vec<D>::Unit(1));
+    for (int axis = 0; axis < D; ++axis) {
+      if (axis != 1 && periodic[axis]) way[axis] -= box[axis] * std::round(way[axis] / box[axis]);
+    }
+    return way;
+  }
   double boxes_to(double place, int axis) const {
     const bool inside = place >= 0.0 && place < box[axis];
     return inside || !periodic[axis] ? 0.0 : std::floor(place / box[axis]);
@@ -97,5 +113,14 @@ struct Domain {
     return image;
   }
 };
+
+/// Adds `share` times the flow of a sheared box to the velocities of a state: -1 removes it.
+template <int D>
+void add_flow(State<D>& state, const Domain<D>& domain, double share) {
+  if (!domain.sheared) return;
+  for (std::size_t i = 0; i < state.positions.size(); ++i) {
+    state.velocities[i] += share * domain.flow(state.positions[i]);
+  }
+}
 
 }  // namespace clatter

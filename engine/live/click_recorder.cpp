@@ -41,7 +41,7 @@ void ClickRecorder<D>::add(const Vec<D>& contact, const Vec<D>& momentum, double
   skipped_ = 0;
   const Model<D>& model = simulation_.model();
   const double square = momentum.squaredNorm();
-  const double place = model.domain().wrapped(contact)[0] / model.box[0];
+  const double place = simulation_.domain().wrapped(contact)[0] / model.box[0];
   double frequency = std::sqrt(square);
   if (simulation_.is_mixture()) frequency *= exponential(-(1.0 + 1.0 / D) * natural_log(mass));
   clicks_.push_back({simulation_.time(), std::clamp(place, 0.0, 1.0), frequency,

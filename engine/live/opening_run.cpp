@@ -42,6 +42,7 @@ static void start_from(State<D>& state, const VecX& shift, std::uint64_t seed, S
   }
   state = adapt_to_scene(state, scene, seed);
   const double temperature = temperature_of(state);
+  add_flow(state, model_of<D>(scene, seed).domain(), 1.0);
   scene.particles.start = {
       .layout = Layout::File, .file = "", .state = std::move(state), .temperature = temperature};
   scene.particles.count_left.reset();

@@ -34,7 +34,11 @@ class RunOf : public WatchedRun {
   const EventCounts& counts() const override { return run_.simulation().counts(); }
   int dimension() const override { return D; }
   const Scene& laws() const override { return run_.laws(); }
-  AnyState state() const override { return run_.simulation().state(); }
+  AnyState state() const override {
+    State<D> state = run_.simulation().state();
+    add_flow(state, run_.simulation().domain(), -1.0);
+    return state;
+  }
   std::unique_ptr<WatchedRun> copy() override;
   bool prepare(const StopRequest& pause) override { return run_.prepare(pause); }
   bool run_until(double time, std::uint64_t collisions, std::uint64_t steps,

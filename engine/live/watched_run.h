@@ -37,7 +37,7 @@ class WatchedRun {
   virtual int dimension() const = 0;
   /// The scene with the present laws, without its changes.
   virtual const Scene& laws() const = 0;
-  /// All particles at time().
+  /// All particles at time(), in a sheared box without the velocity of the flow.
   virtual AnyState state() const = 0;
 
   /// A copy of the run at its present time, with the same past and the same changes. Its profiles

@@ -472,10 +472,9 @@ Measured Measurement<D>::means() const {
     for (const int a : {0, 1}) {
       for (const int b : {0, 1}) shear.stress[a][b] = estimate(stress(a, b));
     }
-    const auto stress_yx = stress(1, 0);
-    measured.shear_in = estimate([&](const auto& w) { return rate * volume * stress_yx(w); });
+    measured.shear_in = estimate([](const auto& w) { return w.shear_in / w.duration; });
     if (rate != 0.0) {
-      shear.viscosity = estimate([&](const auto& w) { return stress_yx(w) / rate; });
+      shear.viscosity = estimate([&](const auto& w) { return stress(1, 0)(w) / rate; });
     }
   }
   bool slides = false;

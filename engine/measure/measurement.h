@@ -67,7 +67,7 @@ struct Measured {
   std::optional<Estimate> nudges_in;   ///< power of nudges; absent: none so far
   std::optional<Estimate> gravity_in;  ///< power of gravity
   std::optional<Estimate> shear_in;    ///< power of the shear; absent: the box is not sheared
-  std::optional<ShearMeans> shear;     ///< the same
+  std::optional<ShearMeans> shear;     ///< stress and viscosity; absent: the box is not sheared
   Estimate dissipated;                 ///< energy per time lost in pair collisions, > 0
   /// Energy that elasticised pair collisions did not dissipate, divided by the energy that all did:
   /// an estimate of the error due to t_c. Absent without a t_c or without dissipation.

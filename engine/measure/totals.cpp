@@ -207,6 +207,7 @@ WindowTotals<D> Totals<D>::close_window() {
     window_.kinetic = {integral_[0], cross_integral_, cross_integral_, integral_[1]};
     for (double& sum : window_.kinetic) sum /= window_.duration;
   }
+  window_.shear_in = -rate() * (cross_integral_ + window_.collisional[2]);
   const WindowTotals<D> closed = window_;
   window_ = {};
   integral_.setZero();

@@ -23,6 +23,7 @@ struct WindowTotals {
   double bulk_in = 0.0;                      ///< energy input of kicks
   double nudges_in = 0.0;                    ///< energy input of nudges and puffs
   double gravity_in = 0.0;                   ///< work of gravity on the flights that ended
+  double shear_in = 0.0;                     ///< work of the shear
   /// [2 a + b] in the plane of the flow of a sheared box: averages over time of sum m c_a c_b, and
   /// sums of x_a J_b over pair collisions, of separation and momentum (theory 14.2).
   std::array<double, 4> kinetic{}, collisional{};
@@ -45,11 +46,11 @@ struct WindowTotals {
 template <class Archive, int D>
 void visit(Archive& io, WindowTotals<D>& window) {
   auto& [duration, temperature, second_moment, fourth_moment, collisions, elasticised,
-         spin_temperature, walls_in, bulk_in, nudges_in, gravity_in, kinetic, collisional,
+         spin_temperature, walls_in, bulk_in, nudges_in, gravity_in, shear_in, kinetic, collisional,
          dissipated, undissipated, virial, wall_impulse, wall_drag] = window;
   io(duration, temperature, second_moment, fourth_moment, collisions, elasticised, spin_temperature,
-     walls_in, bulk_in, nudges_in, gravity_in, kinetic, collisional, dissipated, undissipated,
-     virial, wall_impulse, wall_drag);
+     walls_in, bulk_in, nudges_in, gravity_in, shear_in, kinetic, collisional, dissipated,
+     undissipated, virial, wall_impulse, wall_drag);
 }
 
 /// Books energy and momentum of every event, of gravity and of a sheared flow, and averages the

@@ -27,6 +27,12 @@ template <int D>
 void FlightRecorder<D>::before_laws(const Model<D>& next) {
   const Model<D>& present = simulation_.model();
   if (keeps_flights<D>(present, next)) return;
+  if (present.shear_rate != next.shear_rate) {
+    // Places of the images of before no longer follow from the rate.
+    ended_.clear();
+    since_ = simulation_.base_time();
+    return;
+  }
   for (std::uint32_t i = 0; i < simulation_.particles().size(); ++i) {
     if (!keeps(i)) continue;
     ended_.push_back(

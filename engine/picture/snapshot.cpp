@@ -24,9 +24,7 @@ Snapshot snapshot_of(const Simulation<D>& simulation) {
   if (const Domain<D> domain = simulation.domain(); domain.sheared) {
     snapshot.slide = domain.slide;
     snapshot.offset = domain.offset - std::floor(domain.offset / domain.box[0]) * domain.box[0];
-    for (std::size_t i = 0; i < state.positions.size(); ++i) {
-      state.velocities[i] = domain.peculiar(state.positions[i], state.velocities[i]);
-    }
+    add_flow(state, domain, -1.0);
   }
   snapshot.velocities = as_columns(state.velocities);
   snapshot.grains = std::move(state.grains);

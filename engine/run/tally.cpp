@@ -15,6 +15,7 @@ void add(Tally& tally, const WindowTotals<D>& window) {
   tally.bulk_in += window.bulk_in;
   tally.nudges_in += window.nudges_in;
   tally.gravity_in += window.gravity_in;
+  tally.shear_in += window.shear_in;
   tally.dissipated += window.dissipated;
   tally.undissipated += window.undissipated;
   tally.collisions += static_cast<std::uint64_t>(window.collisions);

@@ -16,6 +16,7 @@ struct Tally {
   double bulk_in = 0.0;                    ///< energy input of kicks
   double nudges_in = 0.0;                  ///< energy input of nudges and puffs
   double gravity_in = 0.0;                 ///< work of gravity
+  double shear_in = 0.0;                   ///< work of the shear
   double dissipated = 0.0;                 ///< energy lost between particles, > 0
   double undissipated = 0.0;               ///< additional loss without t_c
   std::uint64_t collisions = 0;            ///< between particles
@@ -33,9 +34,9 @@ void add(Tally& tally, const WindowTotals<D>& window);
 template <class Archive>
 void visit(Archive& io, Tally& tally) {
   auto& [time, temperature_integral, spin_temperature_integral, walls_in, bulk_in, nudges_in,
-         gravity_in, dissipated, undissipated, collisions, elasticised] = tally;
+         gravity_in, shear_in, dissipated, undissipated, collisions, elasticised] = tally;
   io(time, temperature_integral, spin_temperature_integral, walls_in, bulk_in, nudges_in,
-     gravity_in, dissipated, undissipated, collisions, elasticised);
+     gravity_in, shear_in, dissipated, undissipated, collisions, elasticised);
 }
 
 }  // namespace clatter

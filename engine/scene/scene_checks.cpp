@@ -417,6 +417,12 @@ static void check_shear(const Scene& scene, const toml::table& root, const std::
     refuse(wall_path(side), "a sheared box has no walls across the flow or its gradient",
            "remove the walls across x and y, or [shear]: walls can slide by surface_velocity");
   }
+  for (int side = 4; side < 2 * scene.dimension(); ++side) {
+    const auto& wall = scene.walls[side];
+    if (!wall || (wall->kind != WallKind::Thermal && !wall->roughness.any())) continue;
+    refuse(wall_path(side), "a thermal or rough wall would hold up the flow of a sheared box",
+           "choose a smooth wall of another kind");
+  }
   if (scene.has_fixtures() || scene.piston) {
     refuse(scene.piston              ? "piston"
            : scene.obstacles.empty() ? "partition"
@@ -440,8 +446,12 @@ static void check_shear(const Scene& scene, const toml::table& root, const std::
            "fields and observables do not know the flow of a sheared box",
            "remove them: the result has temperatures, stresses and the viscosity");
   }
-  if (scene.view.field) {
-    refuse("view.field", "heatmaps do not know the flow of a sheared box", "remove it");
+  if (scene.view.field || scene.view.arrows) {
+    refuse(scene.view.field ? "view.field" : "view.arrows",
+           "heatmaps and arrows do not know the flow of a sheared box", "remove it");
+  }
+  if (std::ranges::any_of(scene.view.plots, is_profile)) {
+    refuse("view.plots", "profiles do not know the flow of a sheared box", "remove them");
   }
 }
 
@@ -488,6 +498,10 @@ void check_change_tables(const Scene& scene, const toml::table& root, const std:
                       "reverse = true");
     }
     if (change.reverse) {
+      if (scene.shear_rate) {
+        throw UserError(place("reverse"), "a sheared gas does not run back: its flow goes on",
+                        "remove this change, or [shear]");
+      }
       if (!change.set.empty() || change.ramp || change.nudge || change.puff || change.piston) {
         throw UserError(place("reverse"), "'reverse' has no other key beside time",
                         "give it a [[change]] of its own");

@@ -72,8 +72,12 @@ void load_start_state(Scene& scene, const toml::table& root, const std::string& 
   } else {
     refuse_missing_state(place, path);
   }
-  start.temperature =
-      std::visit([](const auto& state) { return temperature_of(state); }, start.state);
+  start.temperature = std::visit(
+      [&]<int D>(State<D> state) {
+        add_flow(state, model_of<D>(scene, 0).domain(), -1.0);
+        return temperature_of(state);
+      },
+      start.state);
 }
 
 /// Dimension of a document's box: 3 if its size has three numbers, otherwise 2.

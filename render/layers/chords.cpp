@@ -45,7 +45,10 @@ class Collector {
     constexpr double kMax = 4096.0;
     const double bends = (to - from) * std::sqrt(curvature / (8.0 * kOff));
     const Vec2 way = piece.at(to) - piece.at(from);
-    const double boxes = (way.array() / snapshot_.box.array()).abs().maxCoeff();
+    // Images above and below are carried along in a sheared box.
+    const double images = 1.0 + std::max(-tiling_.first[1], tiling_.last[1]);
+    const double carried = images * std::fabs(snapshot_.slide) * (to - from) / snapshot_.box[0];
+    const double boxes = (way.array() / snapshot_.box.array()).abs().maxCoeff() + carried;
     const double count = std::floor(std::min(std::max(bends, boxes), kMax)) + 1.0;
     const double step = (to - from) / count;
     for (double k = 0.0; k < count; ++k) {

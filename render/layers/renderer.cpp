@@ -26,8 +26,13 @@ Colour gap_colour(const ThemeColours& theme, FieldStyle style) {
   return thin(theme.static_wall, style == FieldStyle::Cells ? kHatch : 0);
 }
 
-// Moves the particles along their flights to a time relative to the time of the snapshot.
-void move_to(Snapshot& snapshot, double time) {
+// Moves the particles along their flights to a time relative to the time of the snapshot, at which
+// the images of a sheared box have this offset.
+void move_to(Snapshot& snapshot, double time, double offset) {
+  if (snapshot.slide != 0.0) {
+    const double lengths = (offset + snapshot.slide * time) / snapshot.box[0];
+    snapshot.offset = (lengths - std::floor(lengths)) * snapshot.box[0];
+  }
   for (const FlightPiece& piece : snapshot.flights) {
     if (time < piece.from || time >= piece.to) continue;
     VecX place = piece.at(time);
@@ -299,7 +304,7 @@ void Renderer::draw_sum(const Snapshot& snapshot, const Projection& projection, 
     instant.exposure = 0.0;
     instant.orientations.clear();
     for (int k = 0; k < kInstants; ++k) {
-      move_to(instant, snapshot.exposure * ((k + 0.5) / kInstants - 1.0));
+      move_to(instant, snapshot.exposure * ((k + 0.5) / kInstants - 1.0), snapshot.offset);
       add(instant, 1.0, view.opacity / kInstants);
     }
   } else {

@@ -75,6 +75,17 @@ Scene driven_disks() {
   return scene;
 }
 
+// A gas in a sheared box, with kicks and changes of the rate.
+Scene sheared_disks() {
+  Scene scene = gas(16.0, 18.0, 120, 0.9);
+  scene.shear_rate = 0.7;
+  scene.bulk_drive = BulkDrive{.interval = 0.37, .kick_speed = 0.5};
+  scene.changes = {
+      {.time = 30.0, .set = {{"shear.rate", "-0.4"}}},
+      {.time = 100.0, .set = {{"shear.rate", "1.0"}}, .ramp = Ramp::Linear, .until = 220.0}};
+  return scene;
+}
+
 // Changes a law, jumps to random times of a run, and compares its states with those of a run
 // without jumps. The record of the run has at least `states`.
 template <int D>
@@ -107,6 +118,10 @@ void check_jumps(const Scene& scene, std::size_t record_bytes, std::size_t state
 TEST_CASE("Time travel: after 100 jumps disks have the states of a run without jumps") {
   check_jumps<2>(driven_disks(), kRecordBytes, 10);
   check_jumps<2>(driven_disks(), 50'000, 3);  // memory for a few states
+}
+
+TEST_CASE("Time travel: after 100 jumps sheared disks have the states of a run without jumps") {
+  check_jumps<2>(sheared_disks(), kRecordBytes, 10);
 }
 
 TEST_CASE("Time travel: after 100 jumps rough spheres have the states of a run without jumps") {

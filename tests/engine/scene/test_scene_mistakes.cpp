@@ -178,6 +178,13 @@ TEST_CASE("Scene file: mistakes are reported with their place and a fix") {
       {sheared + "[measure]\nfields = [\"density\"]\n", "8:1", "do not know the flow"},
       {sheared + "[measure]\nobservables = [\"clusters\"]\n", "8:1", "do not know the flow"},
       {sheared + "[view]\nfield = \"density\"\n", "8:1", "do not know the flow"},
+      {sheared + "[view]\narrows = \"velocity\"\n", "8:1", "do not know the flow"},
+      {sheared + "[view]\nplots = [\"density_profile\"]\n", "8:1", "do not know the flow"},
+      {sheared + "[[change]]\ntime = 1\nreverse = true\n", "9:1", "does not run back"},
+      {"box.size = [9, 9, 9]\nparticles.count = 9\nshear.rate = 1\n[walls.back]\nkind = "
+       "\"thermal\"\ntemperature = 1\n[walls.front]\n" +
+           fixed,
+       "4:2", "would hold up the flow"},
       {sheared + "[[change]]\ntime = 1\nset = { \"walls.left\" = { kind = \"static\" } }\n", "7:1",
        "no wall opposite"},
       {kParticles + "[shear]\n", "3:1", "'shear.rate' is missing"},
