@@ -172,9 +172,12 @@ TEST_CASE("Sheared boxes: a contact across the border by hand") {
   const Vec2 n(-(3.0 - 4.0 * time), -(0.6 - 2.0 * time));
   const Vec2 g(4.0, 2.0);  // v_0 - v_1 there
   const Vec2 change = -g.dot(n) * n;
+  // Both have crossed the border: disk 0 is at the bottom now, where the flow is faster by 4.
+  const Vec2 flow(4.0, 0.0);
   const State<2> after = meet.state();
-  CHECK((after.velocities[0] - start.velocities[0] - change).norm() < 1e-8);
-  CHECK((after.velocities[1] - start.velocities[1] + change).norm() < 1e-8);
+  CHECK(after.positions[0].y() == doctest::Approx(7.8 + time - 8.0).epsilon(1e-7));
+  CHECK((after.velocities[0] - start.velocities[0] - change - flow).norm() < 1e-8);
+  CHECK((after.velocities[1] - start.velocities[1] + change + flow).norm() < 1e-8);
 }
 
 TEST_CASE("Sheared boxes: rate 0, one disk and none") {

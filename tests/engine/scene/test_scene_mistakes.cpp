@@ -184,7 +184,7 @@ TEST_CASE("Scene file: mistakes are reported with their place and a fix") {
       {"box.size = [9, 9, 9]\nparticles.count = 9\nshear.rate = 1\n[walls.back]\nkind = "
        "\"thermal\"\ntemperature = 1\n[walls.front]\n" +
            fixed,
-       "4:2", "would hold up the flow"},
+       "4:1", "would hold up the flow"},
       {sheared + "[[change]]\ntime = 1\nset = { \"walls.left\" = { kind = \"static\" } }\n", "7:1",
        "no wall opposite"},
       {kParticles + "[shear]\n", "3:1", "'shear.rate' is missing"},
