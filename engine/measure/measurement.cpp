@@ -465,7 +465,8 @@ Measured Measurement<D>::means() const {
     const double rate = *model.shear_rate, volume = model.box.prod();
     const auto stress = [&](int a, int b) {
       return [=](const WindowTotals<D>& w) {
-        return -(w.kinetic[2 * a + b] + w.collisional[2 * a + b] / w.duration) / volume;
+        const int k = 2 * a + b;
+        return -(w.plane[k] + w.plane[4 + k] / w.duration) / volume;
       };
     };
     ShearMeans& shear = measured.shear.emplace();
@@ -490,8 +491,11 @@ Measured Measurement<D>::means() const {
     if (!slides) continue;
     for (int axis = 0; axis < D; ++axis) {
       if (axis == side / 2) continue;
-      measured.shear_stress[side][axis] =
-          estimate([&](const auto& w) { return w.wall_drag[side][axis] / (w.duration * area); });
+      measured.shear_stress[side][axis] = estimate([&](const auto& w) {
+        // A window from before a change of laws may have no such sum.
+        const double drag = w.wall_drag.empty() ? 0.0 : w.wall_drag[D * side + axis];
+        return drag / (w.duration * area);
+      });
     }
   }
   if (model.species) {

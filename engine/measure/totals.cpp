@@ -1,6 +1,7 @@
 #include "engine/measure/totals.h"
 
 #include <cmath>
+#include <utility>
 
 namespace clatter {
 
@@ -10,7 +11,18 @@ Totals<D>::Totals(const Simulation<D>& simulation)
       energy_at_start_(energy_of_starts()),
       integrated_to_(simulation.base_time()),
       window_start_(integrated_to_) {
+  fit_window();
   take_stock();
+}
+
+// A window has sums of sliding walls and of shear only if the scene has them.
+template <int D>
+void Totals<D>::fit_window() {
+  const Model<D>& model = simulation_.model();
+  if (model.shear_rate) window_.plane.resize(8);
+  bool slides = false;
+  model.for_walls([&](const Wall& wall) { slides = slides || wall.slides(); });
+  if (slides) window_.wall_drag.resize(2 * D * D);
 }
 
 // Kinetic energy at the starts of the particles' current flights, and energy of spins. It changes
@@ -127,6 +139,7 @@ void Totals<D>::before_laws(const Model<D>& next) {
 template <int D>
 void Totals<D>::on_laws() {
   mass_ = simulation_.mass();
+  fit_window();
 }
 
 // Books the work of gravity and of the shear on all flights up to now.
@@ -151,7 +164,7 @@ void Totals<D>::on_collision(const PairCollision<D>& collision) {
   if (simulation_.model().shear_rate) {
     // The flow has different velocities at the two centres, so the shear works in a collision too.
     const Vec<D>&x = collision.separation, &momentum = collision.particles[0].gain.momentum;
-    for (const int k : {0, 1, 2, 3}) window_.collisional[k] += x[k / 2] * momentum[k % 2];
+    for (const int k : {0, 1, 2, 3}) window_.plane[4 + k] += x[k / 2] * momentum[k % 2];
     gained += rate() * x[1] * momentum[0];
   }
   // The gain of an elastic collision is a rounding error.
@@ -171,7 +184,10 @@ void Totals<D>::on_wall(const WallCollision<D>& collision) {
   const int axis = collision.side / 2;
   const Vec<D>& gain = collision.particle.gain.momentum;
   window_.wall_impulse[collision.side] += std::fabs(gain[axis]);
-  window_.wall_drag[collision.side] -= gain - gain[axis] * Vec<D>::Unit(axis);
+  if (window_.wall_drag.empty()) return;
+  for (int along = 0; along < D; ++along) {
+    if (along != axis) window_.wall_drag[D * collision.side + along] -= gain[along];
+  }
 }
 
 template <int D>
@@ -204,12 +220,14 @@ WindowTotals<D> Totals<D>::close_window() {
   if (count > 0.0 && window_.duration > 0.0) {
     window_.temperature = integral_ / (window_.duration * count);
     window_.spin_temperature = spin_integral_ / (window_.duration * count * kSpinSize<D>);
-    window_.kinetic = {integral_[0], cross_integral_, cross_integral_, integral_[1]};
-    for (double& sum : window_.kinetic) sum /= window_.duration;
   }
-  window_.shear_in = -rate() * (cross_integral_ + window_.collisional[2]);
-  const WindowTotals<D> closed = window_;
-  window_ = {};
+  if (!window_.plane.empty() && window_.duration > 0.0) {
+    const double kinetic[] = {integral_[0], cross_integral_, cross_integral_, integral_[1]};
+    for (const int k : {0, 1, 2, 3}) window_.plane[k] = kinetic[k] / window_.duration;
+    window_.shear_in = -rate() * (cross_integral_ + window_.plane[6]);
+  }
+  const WindowTotals<D> closed = std::exchange(window_, {});
+  fit_window();
   integral_.setZero();
   cross_integral_ = 0.0;
   spin_integral_ = 0.0;

@@ -24,33 +24,27 @@ struct WindowTotals {
   double nudges_in = 0.0;                    ///< energy input of nudges and puffs
   double gravity_in = 0.0;                   ///< work of gravity on the flights that ended
   double shear_in = 0.0;                     ///< work of the shear
-  /// [2 a + b] in the plane of the flow of a sheared box: averages over time of sum m c_a c_b, and
-  /// sums of x_a J_b over pair collisions, of separation and momentum (theory 14.2).
-  std::array<double, 4> kinetic{}, collisional{};
+  /// [8] in the plane of the flow of a sheared box: averages over time of sum m c_a c_b as [2 a +
+  /// b], then sums of x_a J_b over pair collisions, of separation and momentum (theory 14.2).
+  /// Otherwise empty.
+  std::vector<double> plane;
   double dissipated = 0.0;                   ///< energy lost between particles, > 0
   double undissipated = 0.0;                 ///< energy that the TC model saved from dissipation
   double virial = 0.0;                       ///< sum of impulse.separation over pair collisions
   std::array<double, 2 * D> wall_impulse{};  ///< momentum transfer to each wall, along its normal
-  /// Momentum transfer to each wall along its surface, without the component along the normal.
-  std::array<Vec<D>, 2 * D> wall_drag = no_drag();
-
-  /// Vectors that are 0.
-  static std::array<Vec<D>, 2 * D> no_drag() {
-    std::array<Vec<D>, 2 * D> none;
-    none.fill(Vec<D>::Zero());
-    return none;
-  }
+  /// [2D x D] momentum transfer to each wall along its surface, if a wall slides. Otherwise empty.
+  std::vector<double> wall_drag;
 };
 
 /// Visits all members, in order, for checkpoints.
 template <class Archive, int D>
 void visit(Archive& io, WindowTotals<D>& window) {
   auto& [duration, temperature, second_moment, fourth_moment, collisions, elasticised,
-         spin_temperature, walls_in, bulk_in, nudges_in, gravity_in, shear_in, kinetic, collisional,
-         dissipated, undissipated, virial, wall_impulse, wall_drag] = window;
+         spin_temperature, walls_in, bulk_in, nudges_in, gravity_in, shear_in, plane, dissipated,
+         undissipated, virial, wall_impulse, wall_drag] = window;
   io(duration, temperature, second_moment, fourth_moment, collisions, elasticised, spin_temperature,
-     walls_in, bulk_in, nudges_in, gravity_in, shear_in, kinetic, collisional, dissipated,
-     undissipated, virial, wall_impulse, wall_drag);
+     walls_in, bulk_in, nudges_in, gravity_in, shear_in, plane, dissipated, undissipated, virial,
+     wall_impulse, wall_drag);
 }
 
 /// Books energy and momentum of every event, of gravity and of a sheared flow, and averages the
@@ -81,6 +75,7 @@ class Totals : public Observer<D> {
 
  private:
   void change(const ParticleChange<D>& particle, double time);
+  void fit_window();
   void shear_to(double dt);
   void book_shear(const Flight<D>& flight, double mass, double time);
   double rate() const { return simulation_.model().shear_rate.value_or(0.0); }

@@ -399,14 +399,14 @@ TEST_CASE_TEMPLATE("Sheared boxes: the work of the shear is the energy gained an
     simulation.run_until(restitution < 1.0 ? 60.0 : 5.0);
     const WindowTotals<D> window = totals.close_window();
     const double end = simulation.kinetic_energy();
-    const double work = -0.7 * (window.kinetic[2] * window.duration + window.collisional[2]);
+    const double work = -0.7 * (window.plane[2] * window.duration + window.plane[6]);
     const double scale = start + end + losses.sum;
     CHECK(std::fabs(end - start - (work - window.dissipated)) < 1e-12 * scale);
     CHECK(std::fabs(window.dissipated - losses.sum) < 1e-12 * scale);
     CHECK(totals.ledger_residual() < 1e-13);
     CHECK(work > 0.0);
     // The stress of smooth particles is symmetric.
-    CHECK(std::fabs(window.collisional[1] - window.collisional[2]) < 1e-11 * scale);
+    CHECK(std::fabs(window.plane[5] - window.plane[6]) < 1e-11 * scale);
   }
 }
 
@@ -433,8 +433,8 @@ TEST_CASE("Sheared boxes: temperatures are exact averages over time") {
   for (const int axis : {0, 1}) {
     CHECK(window.temperature[axis] == doctest::Approx(0.1 * squares[axis]).epsilon(2e-4));
   }
-  CHECK(window.kinetic[1] == doctest::Approx(cross).epsilon(2e-3));
-  CHECK(window.kinetic[0] == doctest::Approx(squares.x()).epsilon(2e-4));
+  CHECK(window.plane[1] == doctest::Approx(cross).epsilon(2e-3));
+  CHECK(window.plane[0] == doctest::Approx(squares.x()).epsilon(2e-4));
 }
 
 }  // namespace clatter::sheared_boxes
