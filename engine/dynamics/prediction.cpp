@@ -286,7 +286,8 @@ void Prediction<D>::offer_first(std::uint32_t particle, const Candidates<D>& nea
 template <int D>
 template <bool kMixed>
 void Prediction<D>::look_across(const Request& request, double now) const {
-  const auto [particle, plan] = request;
+  const std::uint32_t particle = request.particle;
+  Plan<D>* const plan = request.plan;
   const Domain<D>& domain = boundary_.domain();
   const Flight<D> seen = domain.seen_from(particles_.image(particle), particles_[particle].flight);
   for (const Exit& exit : near_.exits(model_, seen, plan->cell, now)) offer_exit(exit, *plan);
