@@ -64,6 +64,29 @@ static CellLayout<D> lay_cells(const Vec<D>& extent, double base, double cells) 
   return layout;
 }
 
+// Largest strain of the cells of a sheared box, whose rows slide by whole cells.
+static double most_strain(double width, double height) {
+  constexpr double kUsual = 0.5, kLeastRange = 0.25;
+  return std::max(kUsual, 0.5 * width / height + kLeastRange);
+}
+
+// The same in a sheared box. Along x, particles that touch are up to sqrt(1 + s^2) diameters apart
+// in cells of the strain s.
+template <int D>
+static CellLayout<D> lay_sheared_cells(const Vec<D>& extent, double base, double cells) {
+  constexpr double kUsualStretch = 1.12;
+  Vec<D> shorter = extent;
+  shorter[0] /= kUsualStretch;
+  CellLayout<D> layout = lay_cells<D>(shorter, base, cells);
+  for (int& count = layout.counts[0];; --count) {
+    layout.widths[0] = extent[0] / count;
+    const double stretch = std::hypot(1.0, most_strain(layout.widths[0], extent[1]));
+    const double room = layout.widths[0] - kMinWidth * stretch * base;
+    layout.overhangs[0] = 0.5 * std::max(0.0, room);
+    if (room >= 0.0 || count == 1) return layout;
+  }
+}
+
 // Whether a periodic box has so many cells that no particle touches another one through two images
 // on its lists.
 template <int D>
@@ -93,10 +116,14 @@ void CellGrid<D>::reset(const Subdomain<D>& subdomain, const GridSizes& sizes, d
   slides_ = subdomain.ends[2] == End::Sliding;
   cells_ = cells;
   const Vec<D> extent = subdomain.upper - subdomain.lower;
-  CellLayout<D> layout = lay_cells<D>(extent, base_, cells);
+  const auto lay = [&] {
+    return slides_ ? lay_sheared_cells<D>(extent, base_, cells)
+                   : lay_cells<D>(extent, base_, cells);
+  };
+  CellLayout<D> layout = lay();
   if (base_ < sizes.largest && !is_wide(layout, subdomain, sizes)) {
     base_ = sizes.largest;
-    layout = lay_cells<D>(extent, base_, cells);
+    layout = lay();
   }
   counts_ = layout.counts;
   widths_ = layout.widths;
@@ -121,7 +148,7 @@ void CellGrid<D>::reset(const Subdomain<D>& subdomain, const GridSizes& sizes, d
     const auto end = [&](int upper) {
       return subdomain.ends[static_cast<std::size_t>(2 * axis + upper)];
     };
-    if (end(0) == End::Periodic) {
+    if (end(0) == End::Periodic || end(0) == End::Sliding) {
       // Seen from beyond the low border, the box is one length higher; from beyond the high border,
       // one length lower.
       const auto wrap = [&](unsigned bits) {
@@ -140,13 +167,57 @@ void CellGrid<D>::reset(const Subdomain<D>& subdomain, const GridSizes& sizes, d
   }
   lists_.assign(static_cast<std::size_t>(stride), List{});
   continuations_ = {};
+  flow_ends_ = kNever;
+}
+
+template <int D>
+void CellGrid<D>::clear() {
+  lists_.assign(lists_.size(), List{});
+  continuations_ = {};
+}
+
+// The strain at which the border has slid by a whole number of cells is a multiple of the width of
+// a cell over the height of the box.
+template <int D>
+void CellGrid<D>::lay_with_flow(const Domain<D>& domain, double now) {
   if (!slides_) return;
-  // Searches from these lists are not plain.
-  IntVec<D> cell = IntVec<D>::Zero();
-  for (List& list : lists_) {
-    list.wraps = is_at_sliding(cell);
-    for (int axis = 0; axis < D && ++cell[axis] == counts_[axis]; ++axis) cell[axis] = 0;
+  const double height = domain.box[1], width = widths_[0];
+  const double most = most_strain(width, height);
+  strain_rate_ = domain.slide / height;
+  const double offset = domain.offset + domain.slide * now;
+  // As far back as possible, so that the cells serve long.
+  const double wanted = -std::copysign(std::max(0.0, most - 0.5 * width / height), domain.slide);
+  const double cells = std::round((offset - wanted * height) / width);
+  const double strain = (offset - cells * width) / height;
+  const double boxes = std::round(cells / counts_[0]);
+  slid_ = static_cast<int>(cells - boxes * counts_[0]);
+  boxes_slid_ = static_cast<int>(boxes);
+  strain_ = strain - strain_rate_ * now;
+  flow_ends_ = kNever;
+  if (strain_rate_ == 0.0) return;
+  flow_ends_ = now + (most - std::copysign(1.0, strain_rate_) * strain) / std::fabs(strain_rate_);
+}
+
+template <int D>
+std::array<Exit, D> CellGrid<D>::flow_exits(const Flight<D>& seen, const IntVec<D>& cell,
+                                            double now) const {
+  std::array<Exit, D> exits;
+  for (int axis = 1; axis < D; ++axis) {
+    const bool upper = seen.v[axis] >= 0.0;
+    const double way = border(axis, cell[axis], upper) - seen.r[axis];
+    exits[axis] = {std::max(now, seen.time + way / (seen.v[axis] + 0.0)), border_of(axis, upper)};
   }
+  // Along x the cells move: x - s y is a parabola in time.
+  const double since = now - seen.time, strain = strain_at(now);
+  const double y = seen.r[1] + seen.v[1] * since - middle();
+  const double x = seen.r[0] + seen.v[0] * since - strain * y;
+  const double speed = seen.v[0] - strain * seen.v[1] - strain_rate_ * y;
+  const double lower = border(0, cell[0], false), upper = border(0, cell[0], true);
+  const WayOut out = exit_time(x - lower, upper - x, speed, -2.0 * strain_rate_ * seen.v[1]);
+  double time = now + out.time;
+  if (time == now && (speed < 0.0) == out.upper) time = std::nextafter(now, kNever);
+  exits[0] = {time, border_of(0, out.upper)};
+  return exits;
 }
 
 template <int D>
@@ -281,7 +352,12 @@ Vec<D> CellGrid<D>::leave(std::uint32_t particle, IntVec<D>& cell, std::uint32_t
   const auto [axis, step] = crossing_of(border);
   const IntVec<D> next = neighbour(cell, axis, step);
   Vec<D> boxes = Vec<D>::Zero();
-  if (next[axis] != cell[axis] + step) boxes[axis] = step;
+  if (next[axis] != cell[axis] + step) {
+    boxes[axis] = step;
+    if (slides_ && axis == 1) {
+      boxes[0] = (cell[0] - step * slid_ - next[0]) / counts_[0] - step * boxes_slid_;
+    }
+  }
   move(particle, cell, axis, step, reach);
   cell = next;
   return boxes;
@@ -311,7 +387,7 @@ bool CellGrid<D>::fit(double particles, double near) {
 template <int D>
 GridSizes grid_sizes(const Model<D>& model, const GrainArray& grains) {
   GridSizes best{model.diameter, model.diameter};
-  // Across a sheared border searches read the lists of particles of the same reach.
+  // Cells of a sheared box, whose rows slide, have neighbours at a distance of one cell alone.
   if (grains.empty() || model.shear_rate) return best;
   // Particles of about the same size, and the mean size and mobility of all.
   struct Class {

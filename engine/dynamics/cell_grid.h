@@ -47,8 +47,10 @@ inline int lists_along(int reach) {
 /// partners reads one list. A crossing removes the particle from one row of lists and adds it to
 /// another. Searches are far more frequent than crossings.
 ///
-/// Across the border of a sheared box lists have no neighbours, because these slide along. A search
-/// reads the lists beyond it that pass by within a time (visit_across).
+/// In a sheared box the cells move with the flow: their places along x are those of x - s y, with
+/// the strain s. So neighbours stay neighbours, also across the border, where a row has slid by a
+/// whole number of cells. The strain must stay between -most_strain() and most_strain(); then the
+/// cells are laid anew (lay_with_flow).
 ///
 /// In a mixture the cells may be smaller than large particles. A particle is on the lists of all
 /// cells within its reach, a number of cells along each axis. The reach is 1 up to the base
@@ -99,7 +101,10 @@ class CellGrid {
   /// border.
   IntVec<D> neighbour(IntVec<D> cell, int axis, int step) const {
     cell[axis] += step;
-    if (cell[axis] < 0 || cell[axis] == counts_[axis]) cell[axis] -= step * counts_[axis];
+    if (cell[axis] < 0 || cell[axis] == counts_[axis]) {
+      cell[axis] -= step * counts_[axis];
+      if (slides_ && axis == 1) cell[0] = within_row(cell[0] - step * slid_);
+    }
     return cell;
   }
   /// Whether a particle that crosses a border of its cell leaves the subdomain.
@@ -159,23 +164,24 @@ class CellGrid {
   template <typename Visit>
   void visit_wide(const IntVec<D>& cell, int reach, const Visit& visit) const;
 
-  /// Whether a cell is at the border of a sheared box.
-  bool is_at_sliding(const IntVec<D>& cell) const {
-    return slides_ && (cell[1] == 0 || cell[1] == counts_[1] - 1);
+  /// Removes all particles.
+  void clear();
+  /// Lays the cells of an empty grid in a sheared box anew, for times from `now` on. `domain` has
+  /// the offset of time 0. Without effect in other boxes.
+  void lay_with_flow(const Domain<D>& domain, double now);
+  /// Box lengths along x by which the next image above has slid, beside the wraps of neighbours. A
+  /// neighbour with the wrap w along y is w times so many boxes farther to the left.
+  int boxes_slid() const { return boxes_slid_; }
+  /// Time at which the cells of a sheared box must be laid anew; kNever: not at all.
+  double flow_ends() const { return flow_ends_; }
+  /// The place in the cells of a sheared box of a position, in the box, at a time. Along x it may
+  /// be in the next image.
+  Vec<D> with_flow(Vec<D> position, double time) const {
+    position[0] -= strain_at(time) * (position[1] - middle());
+    return position;
   }
-  /// Whether a particle that crosses a border of its cell enters the next image of a sheared box.
-  bool slides_over(const IntVec<D>& cell, std::uint32_t border) const {
-    const auto [axis, step] = crossing_of(border);
-    return slides_ && axis == 1 && (step > 0 ? cell[1] == counts_[1] - 1 : cell[1] == 0);
-  }
-  /// Calls visit(list, image) for lists beyond the border of a sheared box. They have all particles
-  /// that may touch one in a cell at this border between two times, some of them twice. `image` is
-  /// the periodic image of the list's cell, in box lengths. `domain` has the offset of time 0.
-  template <typename Visit>
-  void visit_across(const IntVec<D>& cell, const Domain<D>& domain, double from, double to,
-                    const Visit& visit) const;
-  /// Longest time that visit_across() should span.
-  double longest_look(const Domain<D>& domain) const;
+  /// The exits of a flight that is seen from its cell in a sheared box, without gravity.
+  std::array<Exit, D> flow_exits(const Flight<D>& seen, const IntVec<D>& cell, double now) const;
 
   /// Calls visit(list) for the first list of each cell that move() changes, for a reach of 1.
   /// Across a periodic border move() changes further lists.
@@ -197,8 +203,15 @@ class CellGrid {
   static Block row(const IntVec<D>& cell, int axis, int at, int reach = 1);
 
   template <int Axis, typename Visit>
-  void visit_lists(const Block& block, std::uint32_t index, Neighbour wrap,
-                   const Visit& visit) const;
+  void visit_lists(const Block& block, std::uint32_t index, Neighbour wrap, const Visit& visit,
+                   int slid = 0) const;
+  double strain_at(double time) const { return strain_ + strain_rate_ * time; }
+  // Height at which the flow rests, and the cells with it.
+  double middle() const { return 0.5 * (subdomain_.lower[1] + subdomain_.upper[1]); }
+  int within_row(int at) const {
+    const int rest = at % counts_[0];
+    return rest < 0 ? rest + counts_[0] : rest;
+  }
   void sort(const std::vector<IntVec<D>>& cells, std::vector<std::uint32_t>& order,
             std::vector<std::uint32_t>& starts) const;
   bool fill_by_rows(List& list, const IntVec<D>& cell,
@@ -212,6 +225,10 @@ class CellGrid {
   Subdomain<D> subdomain_;
   bool open_;        // whether particles can leave the subdomain
   bool slides_;      // whether the ends along y slide
+  int slid_ = 0;     // cells along x by which the row above the border has slid, and whole boxes
+  int boxes_slid_ = 0;
+  double strain_ = 0.0, strain_rate_ = 0.0;  // of the cells of a sheared box, at time 0
+  double flow_ends_ = kNever;
   GridSizes sizes_;  // requested
   double base_;      // in force: in a narrow box the largest diameter
   int margin_ = 1;   // reach of the largest particle
@@ -249,15 +266,23 @@ typename CellGrid<D>::Block CellGrid<D>::row(const IntVec<D>& cell, int axis, in
 template <int D>
 template <int Axis, typename Visit>
 [[gnu::always_inline]] inline void CellGrid<D>::visit_lists(const Block& block, std::uint32_t index,
-                                                            Neighbour wrap,
-                                                            const Visit& visit) const {
+                                                            Neighbour wrap, const Visit& visit,
+                                                            int slid) const {
   for (int k = block.from[Axis]; k <= block.to[Axis]; ++k) {
+    if (Axis == 0 && slides_) [[unlikely]] {
+      // Seen from a row that has slid, a particle is some boxes to the left or right.
+      const int at = within_row(k + slid), boxes = (at - (k + slid)) / counts_[0];
+      const Neighbour bits = static_cast<Neighbour>(boxes) & 3u;
+      visit(index + static_cast<std::uint32_t>(at), wrap | bits << kParticleBits<D>);
+      continue;
+    }
     const Place& place = places_[Axis][static_cast<std::size_t>(k + margin_)];
     if (place.index == kNone) continue;
     if constexpr (Axis == 0) {
       visit(index + place.index, wrap | place.wrap);
     } else {
-      visit_lists<Axis - 1>(block, index + place.index, wrap | place.wrap, visit);
+      if (Axis == 1 && slides_) slid = k < 0 ? slid_ : k >= counts_[1] ? -slid_ : 0;
+      visit_lists<Axis - 1>(block, index + place.index, wrap | place.wrap, visit, slid);
     }
   }
 }
@@ -297,39 +322,6 @@ void CellGrid<D>::visit_wide(const IntVec<D>& cell, int reach, const Visit& visi
     if (exists) visit(lists_[index(at)], wrap);
     for (int axis = 0; ++number[axis] == lists && axis < D - 1; ++axis) number[axis] = 0;
   }
-}
-
-// A diameter and the overhangs of both cells fit into a cell. So the cell of a particle that
-// touches is less than two cells from this one along x, at the place to which it has slid.
-template <int D>
-template <typename Visit>
-void CellGrid<D>::visit_across(const IntVec<D>& cell, const Domain<D>& domain, double from,
-                               double to, const Visit& visit) const {
-  for (const int above : {1, -1}) {
-    if (cell[1] != (above > 0 ? counts_[1] - 1 : 0)) continue;
-    const double first = above * (domain.offset + domain.slide * from) / widths_[0];
-    const double last =
-        domain.slide == 0.0 ? first : above * (domain.offset + domain.slide * to) / widths_[0];
-    const double low = std::floor(cell[0] - 2.0 - std::max(first, last)) + 1.0;
-    const double high = std::ceil(cell[0] + 2.0 - std::min(first, last)) - 1.0;
-    IntVec<D> at = cell, image = IntVec<D>::Zero();
-    at[1] = above > 0 ? 0 : counts_[1] - 1;
-    image[1] = above;
-    // Each list has the particles of three cells in a row.
-    for (double middle = low + 1.0; middle - 1.0 <= high; middle += 3.0) {
-      const double boxes = std::floor(middle / counts_[0]);
-      at[0] = static_cast<int>(middle - boxes * counts_[0]);
-      image[0] = static_cast<int>(boxes);
-      visit(lists_[index(at)], image);
-    }
-  }
-}
-
-template <int D>
-double CellGrid<D>::longest_look(const Domain<D>& domain) const {
-  constexpr double kMostCells = 12.0;
-  const double cells = std::min(kMostCells, std::max(3.0, 0.5 * counts_[0]));
-  return cells * widths_[0] / std::fabs(domain.slide);
 }
 
 // A particle on a parabola may leave through the border by which it entered. The calculation starts

@@ -33,10 +33,10 @@ struct Candidates {
 template <int D>
 struct ImageFrame {
   const double* box;           ///< [D] edge lengths
-  const int* extra = nullptr;  ///< [D] box lengths to add to each wrap; null: none
   bool sheared = false;        ///< see Domain
   double offset = 0.0;         ///< as Domain::offset, at time 0
   double slide = 0.0;          ///< as Domain::slide
+  int boxes_slid = 0;          ///< as CellGrid::boxes_slid
 };
 
 /// The first contact of a particle with its candidates.
@@ -188,7 +188,9 @@ template <int D, bool kFalling, bool kShifted, class Sizes>
       for (int k = 0; k < D; ++k) {
         Ints boxes = image_component<D>(image, k) - image_component<D>(own_image, k) -
                      wraps_of<D>(candidates.neighbours + i, k);
-        if (frame.extra) boxes -= frame.extra[k];
+        if (k == 0 && frame.sheared) {
+          boxes += frame.boxes_slid * wraps_of<D>(candidates.neighbours + i, 1);
+        }
         const Doubles lengths = __builtin_convertvector(boxes, Doubles);
         shift[k] = lengths * frame.box[k];
         if (k == 1) above = lengths;

@@ -18,8 +18,6 @@ inline constexpr std::uint32_t kPiece = 0xffff0000u;
 inline constexpr std::uint32_t kWall = 0xffffffe0u;
 inline constexpr std::uint32_t kPiston = 0xffffffe8u;
 inline constexpr std::uint32_t kCellBorder = 0xfffffff0u;
-/// A particle at the sheared border of a box looks across it again. It stays in its cell.
-inline constexpr std::uint32_t kLookAcross = 0xfffffff8u;
 
 /// Border of its cell that a particle crosses: the axis, and the step along it, +1 or -1.
 struct Crossing {

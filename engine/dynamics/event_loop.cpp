@@ -88,6 +88,7 @@ void EventLoop<D>::restart(RunState<D>&& saved) {
   gas_ = states_of<D>(model_, saved);
   for (std::uint32_t i = 0; i < grains_.size(); ++i) gas_.particles.set_kind(i, grains_.kind(i));
   near_ = Neighbourhood<D>(model_, grains_, static_cast<double>(gas_.particles.size()));
+  near_.lay_with_flow(domain_, now_);
   set_alike();
   prediction_.set_laws();
   piston_.reset();
@@ -135,20 +136,7 @@ void EventLoop<D>::set_laws(bool keeps_flights, const RunState<D>& former, doubl
     Flight<D>& flight = gas_.particles.flight(i);
     flight = flight_from_now<D>(flight, model_, former, now_);
   }
-  follow_images(domain_.at(now_).offset - boundary_.domain().at(now_).offset);
-}
-
-// The offset of a sheared box is kept below the length of the box. Images follow where whole
-// lengths are left out, so that they stay at their places.
-template <int D>
-void EventLoop<D>::follow_images(double left_out) {
   domain_ = boundary_.domain();
-  if (!domain_.sheared) return;
-  const double lengths = std::round(left_out / domain_.box[0]);
-  if (lengths == 0.0) return;
-  for (std::uint32_t i = 0; i < gas_.particles.size(); ++i) {
-    gas_.particles.move_image(i, gas_.particles.image(i)[1] * lengths * Vec<D>::Unit(0));
-  }
 }
 
 template <int D>
@@ -264,7 +252,10 @@ bool EventLoop<D>::place(Preparation& work, const StopRequest& pause) {
   const auto put = [this](std::size_t i) { put_into_cell(i); };
   plans_.resize(count);
   if (!work.placing.advance(count, pause, put)) return false;
-  if (!std::exchange(work.fitted, true) && near_.fit(plans_)) work.fitted_placing.emplace();
+  if (!std::exchange(work.fitted, true) && near_.fit(plans_)) {
+    near_.lay_with_flow(domain_, now_);
+    work.fitted_placing.emplace();
+  }
   return !work.fitted_placing || work.fitted_placing->advance(count, pause, put);
 }
 
@@ -276,7 +267,16 @@ void EventLoop<D>::put_into_cell(std::size_t number) {
     throw PhysicalStop("particle " + std::to_string(i) + " is outside of the box at the start");
   }
   const Domain<D> domain = domain_.at(now_);
-  const Vec<D> image = domain.image_at(r);
+  Vec<D> image = domain.image_at(r);
+  if (domain.sheared) {
+    Vec<D> place = near_.with_flow(r - domain.shift(image), now_);
+    const double boxes = std::floor(place[0] / domain.box[0]);
+    image[0] += boxes;
+    place[0] -= boxes * domain.box[0];
+    gas_.particles.set_image(i, image);
+    plans_[i].cell = near_.place(i, place);
+    return;
+  }
   gas_.particles.set_image(i, image);
   plans_[i].cell = near_.place(i, r - domain.shift(image));
 }
@@ -308,7 +308,7 @@ bool EventLoop<D>::plan(Preparation& work, const StopRequest& pause) {
 template <int D>
 void EventLoop<D>::move_base() {
   const double shift = now_;
-  follow_images(domain_.at(now_).offset - boundary_.domain().offset);
+  domain_ = boundary_.domain();
   for (std::size_t i = 0; i < gas_.particles.size(); ++i) gas_.particles.flight(i).time -= shift;
   for (double& time : gas_.last_collisions) time -= shift;
   now_ = 0.0;
@@ -323,10 +323,12 @@ void EventLoop<D>::move_base() {
 template <int D>
 void EventLoop<D>::plan_again() {
   Preparation work;
+  if (domain_.sheared && !plans_.empty()) return lay_with_flow();
   if (plans_.empty()) {
     // After drop_plans() there is hardly any cell.
     near_.reset(model_, whole_box<D>(model_), grid_sizes<D>(model_, grains_),
                 static_cast<double>(gas_.particles.size()));
+    near_.lay_with_flow(domain_, now_);
     place(work, {});
   } else if (near_.fit(plans_)) {
     for (std::size_t i = 0; i < gas_.particles.size(); ++i) put_into_cell(i);
@@ -356,9 +358,31 @@ bool EventLoop<D>::is_current(const Event& event) const {
   return (plan.time == event.time) & (plan.partner == event.partner);
 }
 
+// Lays the cells of a sheared box anew and plans all events. The plans depend on flights alone.
+template <int D>
+void EventLoop<D>::lay_with_flow() {
+  if (!near_.fit(plans_)) near_.clear();
+  near_.lay_with_flow(domain_, now_);
+  for (std::size_t i = 0; i < gas_.particles.size(); ++i) put_into_cell(i);
+  Preparation work;
+  plan(work, {});
+}
+
 template <int D>
 typename EventLoop<D>::Halt EventLoop<D>::advance(double stop, std::uint64_t collisions,
                                                   std::uint64_t steps) {
+  while (near_.flow_ends() < stop) {
+    const Halt halt = advance_to(near_.flow_ends(), collisions, steps);
+    if (halt != Halt::Time) return halt;
+    now_ = std::max(now_, near_.flow_ends());
+    lay_with_flow();
+  }
+  return advance_to(stop, collisions, steps);
+}
+
+template <int D>
+typename EventLoop<D>::Halt EventLoop<D>::advance_to(double stop, std::uint64_t collisions,
+                                                     std::uint64_t steps) {
   const auto live = [this](const Event& event) { return is_current(event); };
   const bool prefetch = gas_.particles.size() >= kPrefetchPlansFrom;
   while (counts_.collisions() < collisions && counts_.steps() < steps) {
@@ -482,14 +506,14 @@ double EventLoop<D>::deepest_overlap_of(std::size_t number,
   const Vec<D> r = gas_.particles[i].flight.at(now_, model_.gravity);
   const auto compare = [&](std::uint32_t j, const Vec<D>& wrap) {
     if (j == i || (j < i && grains_.empty())) return;
-    const Vec<D> image = gas_.particles.image(j) - gas_.particles.image(i) - wrap;
+    Vec<D> image = gas_.particles.image(j) - gas_.particles.image(i) - wrap;
+    image[0] += near_.boxes_slid() * wrap[1];
     const Vec<D> x =
         r - gas_.particles[j].flight.at(now_, model_.gravity) + domain_.shift(image, now_);
     const double distance = grain(i).radius + grain(j).radius;
     deepest = std::max(deepest, (distance - x.norm()) / model_.diameter);
   };
   near_.visit(i, plans_[i].cell, compare);
-  near_.visit_beyond(plans_[i].cell, domain_, now_, compare);
   if (fixtures.any()) {
     const double depth = fixtures.depth(domain_.wrapped(r), grain(i).radius, grain(i).species);
     deepest = std::max(deepest, depth / model_.diameter);

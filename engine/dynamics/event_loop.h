@@ -229,8 +229,8 @@ class EventLoop {
   bool is_too_fast(std::uint32_t number) const;
   [[gnu::always_inline]] inline bool is_fast(double velocity) const;
   void enter_next_cell(std::uint32_t number);
-  bool cross_sheared(std::uint32_t number);
-  void follow_images(double left_out);
+  void lay_with_flow();
+  Halt advance_to(double stop, std::uint64_t collisions, std::uint64_t steps);
   [[gnu::always_inline]] inline Motion motion_now(std::uint32_t number);
   void carry_remainder(std::uint32_t number, Vec<D>& position);
   [[gnu::always_inline]] inline void renew_flight(std::uint32_t number, const Vec<D>& position,

@@ -20,33 +20,11 @@ void EventLoop<D>::enter_next_cell(std::uint32_t number) {
   Plan<D>& plan = plans_[number];
   if (near_.leaves_all(plan.cell, plan.partner)) [[unlikely]]
     return retire(number);
-  if (!domain_.sheared || !cross_sheared(number)) {
-    gas_.particles.move_image(
-        number, near_.leave(model_, gas_.particles, number, plan.cell, plan.partner, now_));
-  }
+  gas_.particles.move_image(
+      number, near_.leave(model_, gas_.particles, number, plan.cell, plan.partner, now_));
   ++counts_.cell_crossings;
   prediction_.plan({number, &plan}, now_);
   schedule(number);
-}
-
-// The exits of particles at the border of a sheared box. The flight stays as it is: its image has
-// another place and velocity. Returns false for an exit to another cell of the box.
-template <int D>
-bool EventLoop<D>::cross_sheared(std::uint32_t number) {
-  constexpr double kMostLengths = 1e6;  // of the box, so that their numbers are ints
-  Plan<D>& plan = plans_[number];
-  if (std::fabs(domain_.slide) * now_ > kMostLengths * domain_.box[0]) until_base_moves_ = 0;
-  if (plan.partner == kLookAcross) return true;
-  if (!near_.slides_over(plan.cell, plan.partner)) return false;
-  Vec<D> boxes = crossing_of(plan.partner).step * Vec<D>::Unit(1);
-  const Vec<D> image = gas_.particles.image(number) + boxes;
-  Vec<D> place =
-      gas_.particles[number].flight.at(now_, model_.gravity) - domain_.shift(image, now_);
-  boxes[0] = std::floor(place[0] / domain_.box[0]);
-  place[0] -= boxes[0] * domain_.box[0];
-  gas_.particles.move_image(number, boxes);
-  plan.cell = near_.slide_over(number, plan.cell, plan.partner, place);
-  return true;
 }
 
 // Removes a particle that leaves the subdomain. Plans of others to meet it become stale.
@@ -545,8 +523,6 @@ void EventLoop<D>::begin_stroke() {
 
 template void EventLoop<2>::enter_next_cell(std::uint32_t);
 template void EventLoop<3>::enter_next_cell(std::uint32_t);
-template bool EventLoop<2>::cross_sheared(std::uint32_t);
-template bool EventLoop<3>::cross_sheared(std::uint32_t);
 template bool EventLoop<2>::note(const Event&, const IntVec<2>&);
 template bool EventLoop<3>::note(const Event&, const IntVec<3>&);
 template Spin<2> EventLoop<2>::spin(std::uint32_t) const;

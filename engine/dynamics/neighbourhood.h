@@ -165,47 +165,21 @@ class Neighbourhood {
     exits[0] = lists_->template exit<kFalling>(model, flight, image, number, now);
     return exits;
   }
-  /// Whether a particle in a cell is at the border of a sheared box.
-  bool is_at_sliding(const IntVec<D>& cell) const { return grid_.is_at_sliding(cell); }
-  /// As CellGrid::slides_over.
-  bool slides_over(const IntVec<D>& cell, std::uint32_t border) const {
-    return grid_.slides_over(cell, border);
+  /// As CellGrid::lay_with_flow.
+  void lay_with_flow(const Domain<D>& domain, double now) { grid_.lay_with_flow(domain, now); }
+  /// Removes all particles. For cells only.
+  void clear() { grid_.clear(); }
+  /// As CellGrid::flow_ends.
+  double flow_ends() const { return grid_.flow_ends(); }
+  /// As CellGrid::with_flow.
+  Vec<D> with_flow(const Vec<D>& position, double time) const {
+    return grid_.with_flow(position, time);
   }
-  /// Calls visit(list, image) as CellGrid::visit_across.
-  template <typename Visit>
-  void visit_across(const IntVec<D>& cell, const Domain<D>& domain, double from, double to,
-                    const Visit& visit) const {
-    grid_.visit_across(cell, domain, from, to, visit);
-  }
-  /// As CellGrid::longest_look.
-  double longest_look(const Domain<D>& domain) const { return grid_.longest_look(domain); }
-  /// The exits of a flight that is seen from its cell, without gravity. For cells only.
-  std::array<Exit, D> exits(const Model<D>& model, const Flight<D>& seen, const IntVec<D>& cell,
-                            double now) const {
-    return grid_.template exits<false>(model, seen, Vec<D>::Zero(), cell, now);
-  }
-  /// Calls visit(particle, wrap) for each particle beyond the border of a sheared box that may
-  /// touch a particle in a cell now.
-  template <typename Visit>
-  void visit_beyond(const IntVec<D>& cell, const Domain<D>& domain, double now,
-                    const Visit& visit) const {
-    if (!is_at_sliding(cell)) return;
-    grid_.visit_across(cell, domain, now, now, [&](const auto& list, const IntVec<D>& image) {
-      grid_.continuations().visit(list, [&](std::uint32_t neighbour, const Vec<D>& wrap) {
-        visit(neighbour, Vec<D>(wrap + image.template cast<double>()));
-      });
-    });
-  }
-  /// Puts a particle that crosses the border of a sheared box into the cell of its place beyond.
-  /// Returns this cell.
-  IntVec<D> slide_over(std::uint32_t particle, const IntVec<D>& cell, std::uint32_t border,
-                       const Vec<D>& place) {
-    remove(particle, cell);
-    IntVec<D> next = grid_.cell_at(place);
-    next[1] = grid_.neighbour(cell, 1, crossing_of(border).step)[1];
-    for (int axis = 2; axis < D; ++axis) next[axis] = cell[axis];
-    insert(particle, next);
-    return next;
+  /// As CellGrid::boxes_slid.
+  int boxes_slid() const { return grid_.boxes_slid(); }
+  /// As CellGrid::flow_exits.
+  std::array<Exit, D> flow_exits(const Flight<D>& seen, const IntVec<D>& cell, double now) const {
+    return grid_.flow_exits(seen, cell, now);
   }
   /// Whether a particle that crosses a border of its cell leaves all cells.
   bool leaves_all(const IntVec<D>& cell, std::uint32_t border) const {
@@ -233,7 +207,7 @@ class Neighbourhood {
   }
   /// Prefetches the lists that a crossing changes.
   void prefetch_crossing(const IntVec<D>& cell, std::uint32_t border) const {
-    if (by_particle() || border == kLookAcross) return;
+    if (by_particle()) return;
     const auto [axis, step] = crossing_of(border);
     grid_.visit_moved(cell, axis, step, [](const auto& list) { prefetch(list); });
   }
@@ -243,7 +217,7 @@ class Neighbourhood {
   }
   /// The cell of a particle after a crossing.
   IntVec<D> cell_after(const IntVec<D>& cell, std::uint32_t border) const {
-    if (by_particle() || border == kLookAcross) return cell;
+    if (by_particle()) return cell;
     const auto [axis, step] = crossing_of(border);
     return grid_.neighbour(cell, axis, step);
   }

@@ -76,14 +76,13 @@ void Prediction<D>::offer(double time, std::uint32_t particle, std::uint32_t par
   plan.image = image;
 }
 
-// Periodic image of a pair: box lengths to add to the particle's r minus the candidate's. `extra`
-// adds to the wraps of the candidates.
+// Periodic image of a pair: box lengths to add to the particle's r minus the candidate's.
 template <int D>
-Vec<D> Prediction<D>::image_of(std::uint32_t particle, const Candidates<D>& near, int i,
-                               const IntVec<D>& extra) const {
+Vec<D> Prediction<D>::image_of(std::uint32_t particle, const Candidates<D>& near, int i) const {
   const Neighbour neighbour = near.neighbours[i];
   Vec<D> image = particles_.image(particle_of<D>(neighbour)) - particles_.image(particle);
-  for (int k = 0; k < D; ++k) image[k] -= wrap_of<D>(neighbour, k) + extra[k];
+  for (int k = 0; k < D; ++k) image[k] -= wrap_of<D>(neighbour, k);
+  image[0] += near_.boxes_slid() * wrap_of<D>(neighbour, 1);
   return image;
 }
 
@@ -91,9 +90,9 @@ Vec<D> Prediction<D>::image_of(std::uint32_t particle, const Candidates<D>& near
 // time.
 template <int D>
 void Prediction<D>::offer_particle(std::uint32_t particle, const Candidates<D>& near, int i,
-                                   double time, Plan<D>& plan, const IntVec<D>& extra) const {
+                                   double time, Plan<D>& plan) const {
   const std::uint32_t partner = particle_of<D>(near.neighbours[i]);
-  const Vec<D> image = image_of(particle, near, i, extra);
+  const Vec<D> image = image_of(particle, near, i);
   if (time == kTouching) {
     const Domain<D>& domain = boundary_.domain();
     time = contact_time<D>(particles_[particle].flight, particles_[partner].flight,
@@ -104,9 +103,9 @@ void Prediction<D>::offer_particle(std::uint32_t particle, const Candidates<D>& 
 }
 
 template <int D>
-void Prediction<D>::weigh_each(std::uint32_t particle, const Candidates<D>& near, Plan<D>& plan,
-                               const IntVec<D>& extra) const {
-  for (int i = 0; i < near.size; ++i) offer_particle(particle, near, i, kTouching, plan, extra);
+void Prediction<D>::weigh_each(std::uint32_t particle, const Candidates<D>& near,
+                               Plan<D>& plan) const {
+  for (int i = 0; i < near.size; ++i) offer_particle(particle, near, i, kTouching, plan);
 }
 
 // Copies a list of a known capacity. It copies the whole list, because its length is unpredictable.
@@ -133,7 +132,7 @@ template <int D>
 template <bool kFalling, bool kMixed, bool kShifted, std::size_t kParticles>
 std::array<FirstContact, kParticles> Prediction<D>::first_of(
     const std::array<std::uint32_t, kParticles>& particles,
-    std::array<Candidates<D>, kParticles>& near, const int* extra) const {
+    std::array<Candidates<D>, kParticles>& near) const {
   const Domain<D>& domain = boundary_.domain();
   const auto sizes = [this] {
     if constexpr (kMixed) {
@@ -144,7 +143,7 @@ std::array<FirstContact, kParticles> Prediction<D>::first_of(
   }();
   return first_contacts<D, kFalling, kShifted>(
       reinterpret_cast<const double*>(particles_.data()), particles, near,
-      {model_.box.data(), extra, domain.sheared, domain.offset, domain.slide}, sizes,
+      {model_.box.data(), domain.sheared, domain.offset, domain.slide, near_.boxes_slid()}, sizes,
       model_.gravity.data());
 }
 
@@ -272,42 +271,21 @@ void Prediction<D>::look_at_first_lists(const Requests<kParticles>& requests) co
 // Offers the first contact of a particle with the candidates of one list.
 template <int D>
 void Prediction<D>::offer_first(std::uint32_t particle, const Candidates<D>& near,
-                                const FirstContact& first, Plan<D>& plan,
-                                const IntVec<D>& extra) const {
+                                const FirstContact& first, Plan<D>& plan) const {
   if (!first.unique) {
-    weigh_each(particle, near, plan, extra);
+    weigh_each(particle, near, plan);
   } else if (first.time <= plan.time) {
-    offer_particle(particle, near, first.candidate, first.time, plan, extra);
+    offer_particle(particle, near, first.candidate, first.time, plan);
   }
 }
 
-// In a sheared box the image of the cell may move, and particles beyond the border pass by. They
-// are looked at up to the next event of the particle, or up to another look.
+// The exits from the cells of a sheared box, which move with the flow.
 template <int D>
-template <bool kMixed>
-void Prediction<D>::look_across(const Request& request, double now) const {
-  const std::uint32_t particle = request.particle;
-  Plan<D>* const plan = request.plan;
-  const Domain<D>& domain = boundary_.domain();
-  const Flight<D> seen = domain.seen_from(particles_.image(particle), particles_[particle].flight);
-  for (const Exit& exit : near_.exits(model_, seen, plan->cell, now)) offer_exit(exit, *plan);
-  if (!near_.is_at_sliding(plan->cell)) return;
-  offer_exit({now + near_.longest_look(domain), kLookAcross}, *plan);
-  const auto look = [&](const auto& first_list, const IntVec<D>& extra) {
-    for (NearListView list(first_list);; list = near_.next(list)) {
-      std::array<Candidates<D>, 1> near;
-      if (list.capacity == kContinuedCapacity) {
-        take<kContinuedCapacity>(list, near[0]);
-      } else {
-        take<Neighbourhood<D>::kCapacity>(list, near[0]);
-      }
-      const FirstContact first =
-          first_of<false, kMixed, true, 1>({particle}, near, extra.data())[0];
-      offer_first(particle, near[0], first, *plan, extra);
-      if (list.next == NearListView::kNone) break;
-    }
-  };
-  near_.visit_across(plan->cell, domain, now, std::max(now, plan->time), look);
+void Prediction<D>::offer_flow_exits(const Request& request, double now) const {
+  const auto [particle, plan] = request;
+  const Flight<D> seen =
+      boundary_.domain().seen_from(particles_.image(particle), particles_[particle].flight);
+  for (const Exit& exit : near_.flow_exits(seen, plan->cell, now)) offer_exit(exit, *plan);
 }
 
 // A wall's reach is slightly farther than the wall moves in, so that rounding at a cell's border
@@ -363,11 +341,9 @@ void Prediction<D>::make_plans(const Requests<kParticles>& requests, double now)
     look_at_lists<kFalling, kMixed>(requests);
   }
   for (const auto& [particle, plan] : requests) {
-    if constexpr (!kPlain && !kFalling) {
-      if (boundary_.domain().sheared) {
-        look_across<kMixed>({particle, plan}, now);
-        continue;
-      }
+    if (!kFalling && boundary_.domain().sheared) [[unlikely]] {
+      offer_flow_exits({particle, plan}, now);
+      continue;
     }
     for (const Exit& exit :
          near_.template exits<kFalling>(model_, particles_, particle, plan->cell, now)) {

@@ -109,23 +109,21 @@ class Prediction {
   template <bool kFalling>
   [[gnu::always_inline]] inline void look_at_wide_lists(const Request& request) const;
   void offer_first(std::uint32_t particle, const Candidates<D>& near, const FirstContact& first,
-                   Plan<D>& plan, const IntVec<D>& extra = IntVec<D>::Zero()) const;
+                   Plan<D>& plan) const;
   [[gnu::always_inline]] inline void offer_exit(const Exit& exit, Plan<D>& plan) const;
   [[gnu::always_inline]] inline Vec<D> image_of(std::uint32_t particle, const Candidates<D>& near,
-                                                int i, const IntVec<D>& extra) const;
-  template <bool kMixed>
-  [[gnu::noinline]] void look_across(const Request& request, double now) const;
+                                                int i) const;
+  [[gnu::noinline]] void offer_flow_exits(const Request& request, double now) const;
   template <bool kFalling, bool kMixed, bool kShifted, std::size_t kParticles>
   [[gnu::always_inline]] inline std::array<FirstContact, kParticles> first_of(
       const std::array<std::uint32_t, kParticles>& particles,
-      std::array<Candidates<D>, kParticles>& near, const int* extra = nullptr) const;
+      std::array<Candidates<D>, kParticles>& near) const;
   double radius_of(std::uint32_t particle) const {
     return grains_.empty() ? 0.5 * model_.diameter : grains_.radius(particle);
   }
-  void weigh_each(std::uint32_t particle, const Candidates<D>& near, Plan<D>& plan,
-                  const IntVec<D>& extra) const;
+  void weigh_each(std::uint32_t particle, const Candidates<D>& near, Plan<D>& plan) const;
   void offer_particle(std::uint32_t particle, const Candidates<D>& near, int i, double time,
-                      Plan<D>& plan, const IntVec<D>& extra) const;
+                      Plan<D>& plan) const;
   void look_at_walls(std::uint32_t particle, double now, Plan<D>& plan) const;
   [[gnu::noinline]] void look_at_fixtures(std::uint32_t particle, Plan<D>& plan) const;
   void offer(double time, std::uint32_t particle, std::uint32_t partner, const IntVec<D>& image,

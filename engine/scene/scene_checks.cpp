@@ -433,12 +433,13 @@ static void check_shear(const Scene& scene, const toml::table& root, const std::
     refuse("gravity", "a sheared box has no gravity: the flow would not stay",
            "remove [gravity], or [shear]");
   }
-  const double least = 2.0 * scene.largest_diameter();
-  if (scene.box[1] < least) {
-    refuse("box.size",
-           "a sheared box of height " + number_text(scene.box[1]) +
-               " is lower than two of the largest diameters",
-           "choose a second side of at least " + number_text(least));
+  constexpr double kLeastLength = 1.2, kLeastHeight = 2.0;  // largest diameters
+  const double length = kLeastLength * scene.largest_diameter();
+  const double height = kLeastHeight * scene.largest_diameter();
+  if (scene.box[0] < length || scene.box[1] < height) {
+    refuse("box.size", "the box is too small to be sheared",
+           "choose a first side of at least " + number_text(length) +
+               " and a second side of at least " + number_text(height));
   }
   const Measure& measure = scene.measure;
   if (!measure.fields.empty() || !measure.observables.empty()) {

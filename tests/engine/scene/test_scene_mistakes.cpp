@@ -189,7 +189,9 @@ TEST_CASE("Scene file: mistakes are reported with their place and a fix") {
        "no wall opposite"},
       {kParticles + "[shear]\n", "3:1", "'shear.rate' is missing"},
       {"[box]\nsize = [9, 1.9]\n[particles]\ncount = 3\n[shear]\nrate = 1\n", "2:1",
-       "choose a second side of at least 2"},
+       "too small to be sheared"},
+      {"[box]\nsize = [1.19, 9]\n[particles]\ncount = 3\n[shear]\nrate = 1\n", "2:1",
+       "too small to be sheared"},
       {kParticles + "[[change]]\ntime = 1\nset = { \"shear.rate\" = 1 }\n", "3:1",
        "while the gas moves"},
       // the sides of a divider: 2.4 x 4 has room for two columns of four
