@@ -36,7 +36,7 @@ struct ImageFrame {
   bool sheared = false;        ///< see Domain
   double offset = 0.0;         ///< as Domain::offset, at time 0
   double slide = 0.0;          ///< as Domain::slide
-  int boxes_slid = 0;          ///< as CellGrid::boxes_slid
+  int boxes_slid = 0;          ///< lengths by which the image above has slid beside its wraps
 };
 
 /// The first contact of a particle with its candidates.

@@ -165,19 +165,19 @@ class Neighbourhood {
     exits[0] = lists_->template exit<kFalling>(model, flight, image, number, now);
     return exits;
   }
-  /// As CellGrid::lay_with_flow.
+  /// Lays the cells, which are empty, anew in a sheared box, for times from `now` on.
   void lay_with_flow(const Domain<D>& domain, double now) { grid_.lay_with_flow(domain, now); }
   /// Removes all particles. For cells only.
   void clear() { grid_.clear(); }
-  /// As CellGrid::flow_ends.
+  /// Time at which the cells of a sheared box must be laid anew; kNever: not at all.
   double flow_ends() const { return grid_.flow_ends(); }
-  /// As CellGrid::with_flow.
+  /// The place of a position in the cells of a sheared box at a time.
   Vec<D> with_flow(const Vec<D>& position, double time) const {
     return grid_.with_flow(position, time);
   }
-  /// As CellGrid::boxes_slid.
+  /// Box lengths along x by which the next image above has slid, beside the wraps of neighbours.
   int boxes_slid() const { return grid_.boxes_slid(); }
-  /// As CellGrid::flow_exits.
+  /// The exits of a flight that is seen from its cell in a sheared box, one along each axis.
   std::array<Exit, D> flow_exits(const Flight<D>& seen, const IntVec<D>& cell, double now) const {
     return grid_.flow_exits(seen, cell, now);
   }
