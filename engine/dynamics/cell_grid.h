@@ -49,8 +49,8 @@ inline int lists_along(int reach) {
 ///
 /// In a sheared box the cells move with the flow: their places along x are those of x - s y, with
 /// the strain s. So neighbours stay neighbours, also across the border, where a row has slid by a
-/// whole number of cells. The strain must stay between -most_strain() and most_strain(); then the
-/// cells are laid anew (lay_with_flow).
+/// whole number of cells. The strain must stay between -most_strain() and most_strain(). At the end
+/// of this range lay_with_flow() subtracts from it, and particles are sorted into cells again.
 ///
 /// In a mixture the cells may be smaller than large particles. A particle is on the lists of all
 /// cells within its reach, a number of cells along each axis. The reach is 1 up to the base
@@ -166,13 +166,13 @@ class CellGrid {
 
   /// Removes all particles.
   void clear();
-  /// Lays the cells of an empty grid in a sheared box anew, for times from `now` on. `domain` has
-  /// the offset of time 0. Without effect in other boxes.
+  /// Chooses the strain of the cells of a sheared box at the time `now`. The grid must be empty.
+  /// `domain` has the offset of time 0. Without effect in other boxes.
   void lay_with_flow(const Domain<D>& domain, double now);
   /// Box lengths along x by which the next image above has slid, beside the wraps of neighbours. A
   /// neighbour with the wrap w along y is w times so many boxes farther to the left.
   int boxes_slid() const { return boxes_slid_; }
-  /// Time at which the cells of a sheared box must be laid anew; kNever: not at all.
+  /// Time at which the strain of the cells is largest; kNever: it is constant.
   double flow_ends() const { return flow_ends_; }
   /// The place in the cells of a sheared box of a position, in the box, at a time. Along x it may
   /// be in the next image.

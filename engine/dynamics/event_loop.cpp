@@ -358,7 +358,8 @@ bool EventLoop<D>::is_current(const Event& event) const {
   return (plan.time == event.time) & (plan.partner == event.partner);
 }
 
-// Lays the cells of a sheared box anew and plans all events. The plans depend on flights alone.
+// Chooses the strain of the cells, sorts the particles into them and plans all events. Contact
+// times depend on flights alone, so they stay the same.
 template <int D>
 void EventLoop<D>::lay_with_flow() {
   if (!near_.fit(plans_)) near_.clear();

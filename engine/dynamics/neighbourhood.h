@@ -165,11 +165,11 @@ class Neighbourhood {
     exits[0] = lists_->template exit<kFalling>(model, flight, image, number, now);
     return exits;
   }
-  /// Lays the cells, which are empty, anew in a sheared box, for times from `now` on.
+  /// Chooses the strain of the cells of a sheared box at the time `now`. The cells must be empty.
   void lay_with_flow(const Domain<D>& domain, double now) { grid_.lay_with_flow(domain, now); }
   /// Removes all particles. For cells only.
   void clear() { grid_.clear(); }
-  /// Time at which the cells of a sheared box must be laid anew; kNever: not at all.
+  /// Time at which the strain of the cells is largest; kNever: it is constant.
   double flow_ends() const { return grid_.flow_ends(); }
   /// The place of a position in the cells of a sheared box at a time.
   Vec<D> with_flow(const Vec<D>& position, double time) const {

@@ -500,7 +500,7 @@ void check_change_tables(const Scene& scene, const toml::table& root, const std:
     }
     if (change.reverse) {
       if (scene.shear_rate) {
-        throw UserError(place("reverse"), "a sheared gas does not run back: its flow goes on",
+        throw UserError(place("reverse"), "the velocities of a sheared gas cannot be reversed",
                         "remove this change, or [shear]");
       }
       if (!change.set.empty() || change.ramp || change.nudge || change.puff || change.piston) {

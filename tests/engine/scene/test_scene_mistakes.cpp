@@ -180,7 +180,7 @@ TEST_CASE("Scene file: mistakes are reported with their place and a fix") {
       {sheared + "[view]\nfield = \"density\"\n", "8:1", "do not know the flow"},
       {sheared + "[view]\narrows = \"velocity\"\n", "8:1", "do not know the flow"},
       {sheared + "[view]\nplots = [\"density_profile\"]\n", "8:1", "do not know the flow"},
-      {sheared + "[[change]]\ntime = 1\nreverse = true\n", "9:1", "does not run back"},
+      {sheared + "[[change]]\ntime = 1\nreverse = true\n", "9:1", "cannot be reversed"},
       {"box.size = [9, 9, 9]\nparticles.count = 9\nshear.rate = 1\n[walls.back]\nkind = "
        "\"thermal\"\ntemperature = 1\n[walls.front]\n" +
            fixed,
