@@ -24,7 +24,7 @@ template <int D>
 PlotRecorder<D>::PlotRecorder(ScheduledRun<D>& run, const FilmPlots& film, const std::string& saved)
     : run_(run),
       axis_(static_cast<int>(film.axis) < D ? film.axis : Axis::X),
-      has_profile_(std::ranges::any_of(film.plots, is_profile) && !run.laws().shear_rate),
+      has_profile_(std::ranges::any_of(film.plots, is_profile)),
       plotted_(plotted_part(run.laws().measure, film.plots)),
       spacing_(film.speed / History::kPerSecond),
       totals_(run.simulation()),

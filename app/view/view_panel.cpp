@@ -53,7 +53,8 @@ static bool choose_field(const Session& session, Controls& controls, View& view)
   std::vector<std::optional<Field>> fields = {std::nullopt};
   const Scene& scene = session.scene();
   for (const auto& [name, field] : field_names(scene.dimension(), names_of(scene.species))) {
-    if (of_spins(field) && !session.scene().spins()) continue;
+    if (of_spins(field) && !scene.spins()) continue;
+    if (is_residual(field) && scene.shear_rate) continue;
     words.push_back(in_words(name));
     fields.emplace_back(field);
   }
@@ -183,15 +184,13 @@ void view_panel(Session& session, Controls& controls) {
                               .help = "Of the particles; 0: none, the heatmap alone",
                               .format = "%.2f"},
                              view.opacity, usual.opacity);
-  const bool sheared = session.scene().shear_rate.has_value();
-  if (!sheared) changed |= choose_heatmap(session, controls, view);
+  changed |= choose_heatmap(session, controls, view);
   if (!disks && view.field) {
     changed |= choose_volume(session, controls, view);
     changed |= choose_slices(session, controls, view);
   }
-  if (!sheared)
-    changed |= choose(controls, "view.arrows", "Arrows", "A field with a direction", kArrows,
-                      "none", view.arrows, usual.arrows);
+  changed |= choose(controls, "view.arrows", "Arrows", "A field with a direction", kArrows, "none",
+                    view.arrows, usual.arrows);
   changed |= choose_trails(controls, view.trails, usual.trails);
   if (view.tracer) changed |= choose_path(controls, *view.tracer, usual.tracer);
   changed |= choose(controls, "view.theme", "Theme",

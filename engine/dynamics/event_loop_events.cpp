@@ -194,7 +194,8 @@ void EventLoop<D>::collide(std::uint32_t first, std::uint32_t second, const IntV
                    swap ? v_a : v_b, spin(swap ? first : second), outcome.gain.of(!swap))},
         x * (swap ? -1.0 : 1.0),
         outcome.elasticised,
-        outcome.undissipated};
+        outcome.undissipated,
+        model_.shear_rate.value_or(0.0)};
     for (Observer<D>* observer : observers_) observer->on_collision(collision);
   }
   --until_base_moves_;

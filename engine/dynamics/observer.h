@@ -12,7 +12,8 @@
 
 namespace clatter {
 
-/// State of one particle before an event, and its gain in the event.
+/// State of one particle before an event, and its gain in the event. In a sheared box velocities
+/// and energies are without the flow.
 template <int D>
 struct ParticleChange {
   std::uint32_t particle = 0;
@@ -41,6 +42,19 @@ struct PairCollision {
   Vec<D> separation = Vec<D>::Zero();  ///< r_0 - r_1 of the periodic images in contact
   bool elasticised = false;            ///< whether the TC model made the collision elastic
   double undissipated = 0.0;           ///< energy that the TC model saved from dissipation
+  double shear_rate = 0.0;             ///< of a sheared box, whose flow differs at the two centres
+
+  /// Velocity of the first particle relative to the second, just before.
+  Vec<D> approach() const {
+    Vec<D> approach = particles[0].velocity - particles[1].velocity;
+    approach[0] += shear_rate * separation[1];
+    return approach;
+  }
+  /// Gain in kinetic energy of both, in one frame: what the collision does not dissipate.
+  double energy() const {
+    return particles[0].energy() + particles[1].energy() +
+           shear_rate * separation[1] * particles[0].gain.momentum[0];
+  }
 };
 
 /// A collision of a particle with a wall of the box, a fixture or the free piston.

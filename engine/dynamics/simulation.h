@@ -150,7 +150,9 @@ class Simulation {
   /// Kinetic energy of all spins, sum of I omega^2 / 2.
   double spin_energy() const;
   /// The box and its images at time().
-  Domain<D> domain() const { return boundary_.domain().at(base_time()); }
+  Domain<D> domain() const { return domain_at(base_time()); }
+  /// The same at a time on the base.
+  Domain<D> domain_at(double time) const { return boundary_.domain().at(time); }
   /// The velocity of a flight at a time on the base, in a sheared box without that of the flow.
   Vec<D> peculiar_at(const Flight<D>& flight, double time) const {
     const Vec<D> velocity = flight.velocity_at(time, model_.gravity);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -113,6 +114,24 @@ struct Domain {
     return image;
   }
 };
+
+/// Cuts a straight flight in a sheared box at the borders along y. Calls visit(seen, from, to) for
+/// the parts between two times, in order, with the flight seen from the image in which it then is.
+/// The time of the flight is on the base of the domain's offset.
+template <int D, class Visit>
+void cut_at_images(const Domain<D>& domain, const Flight<D>& flight, double begin, double end,
+                   const Visit& visit) {
+  const double height = domain.box[1], v = flight.v[1], step = v < 0.0 ? -1.0 : 1.0;
+  double image = std::floor((flight.r[1] + v * (begin - flight.time)) / height);
+  for (double from = begin;; image += step) {
+    const double border = (image + (step > 0.0 ? 1.0 : 0.0)) * height;
+    const double crossing = v != 0.0 ? flight.time + (border - flight.r[1]) / v : end;
+    const double to = std::min(end, std::max(from, crossing));
+    if (to > from) visit(domain.seen_from(image * Vec<D>::Unit(1), flight), from, to);
+    if (!(to < end)) return;
+    from = to;
+  }
+}
 
 /// Adds `share` times the flow of a sheared box to the velocities of a state: -1 removes it.
 template <int D>

@@ -34,9 +34,10 @@ void RunWatch<D>::begin_profile() {
   profile_.reset();
   residuals_.reset();
   Simulation<D>& simulation = run_.simulation();
-  if (simulation.model().shear_rate) return;  // fields do not know the flow
   if (profiled_ == Profiled::Fields) profile_.emplace(simulation, window(), profile_axis_);
-  if (profiled_ == Profiled::Balances) residuals_.emplace(simulation, window(), profile_axis_);
+  // The balances of cells do not include the shear.
+  if (profiled_ == Profiled::Balances && !simulation.model().shear_rate)
+    residuals_.emplace(simulation, window(), profile_axis_);
 }
 
 template <int D>

@@ -65,14 +65,23 @@ template <int D>
 template <class Visit>
 void CellIntegrals<D>::spread(const Vec<D>& place, Visit&& visit) const {
   if (gaussian_) return gaussian_->at(place, visit);
-  visit(grid_.index_of(grid_.cell_at(place)), 1.0);
+  if (!simulation_.model().shear_rate) return visit(grid_.index_of(grid_.cell_at(place)), 1.0);
+  visit(grid_.index_of(grid_.cell_at(simulation_.domain().wrapped(place))), 1.0);
 }
 
 template <int D>
 template <class Visit>
 void CellIntegrals<D>::spread(const Vec<D>& from, const Vec<D>& along, Visit&& visit) const {
   if (gaussian_) return gaussian_->along(from, along, visit);
-  grid_.cut(from, along, visit);
+  if (!simulation_.model().shear_rate) return grid_.cut(from, along, visit);
+  // The line is a flight through images at rest.
+  Domain<D> images = simulation_.domain();
+  images.slide = 0.0;
+  cut_at_images<D>(
+      images, {from, along}, 0.0, 1.0, [&](const Flight<D>& seen, double begin, double end) {
+        grid_.cut(seen.r + begin * along, (end - begin) * along,
+                  [&](std::size_t cell, double share) { visit(cell, share * (end - begin)); });
+      });
 }
 
 // A particle's contribution to the kinetic sums per time. It is averaged over a time in which the
@@ -134,24 +143,33 @@ void CellIntegrals<D>::add_flight(const Grain& grain, const Flight<D>& flight, c
   const double begin = std::max(flight.time, window_start_);
   const double spent = end - begin;
   if (!(spent > 0.0)) return;
-  if (simulation_.model().has_gravity()) return add_fall(grain, flight, spin, begin, end);
+  if (simulation_.model().has_gravity()) return add_fall(grain, flight, spin, begin, end, gravity);
+  if (const auto rate = simulation_.model().shear_rate) {
+    // Seen from its image, a flight is straight, and its velocity without the flow changes.
+    const Vec<D> acceleration = -*rate * flight.v[1] * Vec<D>::Unit(0);
+    return cut_at_images(simulation_.domain_at(0.0), flight, begin, end,
+                         [&](const Flight<D>& seen, double from, double to) {
+                           add_fall(grain, seen, spin, from, to, acceleration);
+                         });
+  }
   const Rates rates = rates_of(grain, flight.v, Vec<D>::Zero(), spin);
   grid_.cut(flight.at(begin, gravity), flight.v * spent, [&](std::size_t cell, double share) {
     add_kinetic(cell, grain, rates, share * spent);
   });
 }
 
+// Adds a flight on which the velocity without the flow has an acceleration.
 template <int D>
 void CellIntegrals<D>::add_fall(const Grain& grain, const Flight<D>& flight, const Spin<D>& spin,
-                                double begin, double end) {
+                                double begin, double end, const Vec<D>& acceleration) {
   const Vec<D>& gravity = simulation_.model().gravity;
   auto cell = grid_.cell_at(flight.at(begin, gravity));
   grid_.walk(
       flight, gravity, cell, begin, end,
       [&](const auto& cell, double from, double until) {
         const double spent = until - from;
-        const Vec<D> v = flight.velocity_at(from + 0.5 * spent, gravity);
-        const Rates rates = rates_of(grain, v, spent * gravity, spin);
+        const Vec<D> v = simulation_.peculiar_at(flight, from + 0.5 * spent);
+        const Rates rates = rates_of(grain, v, spent * acceleration, spin);
         add_kinetic(grid_.index_of(cell), grain, rates, spent);
       },
       [](const auto&, double, int, int) {});
@@ -210,7 +228,7 @@ void CellIntegrals<D>::on_collision(const PairCollision<D>& collision) {
   add_transfer(partner, collision.separation, a.gain.momentum, 0.5 * (a.energy() - b.energy()));
   // Without dissipation zeta is exactly 0, not the rounding of energies that cancel.
   if (layout_.dissipation >= 0 && dissipates_ && !collision.elasticised) {
-    const double lost = 0.5 * (a.energy() + b.energy());
+    const double lost = 0.5 * collision.energy();
     add_dissipation(a.position, lost);
     add_dissipation(partner, lost);
   }
@@ -248,10 +266,12 @@ void CellIntegrals<D>::on_laws() {
 template <int D>
 void CellIntegrals<D>::sample() {
   const State<D> state = simulation_.state();
+  const Domain<D> domain = simulation_.domain();
   for (std::uint32_t i = 0; i < state.positions.size(); ++i) {
     const Spin<D> spin = state.spins.empty() ? Spin<D>(Spin<D>::Zero()) : state.spins[i];
     const Grain& grain = simulation_.grain(i);
-    const Rates rates = rates_of(grain, state.velocities[i], Vec<D>::Zero(), spin);
+    const Vec<D> velocity = domain.peculiar(state.positions[i], state.velocities[i]);
+    const Rates rates = rates_of(grain, velocity, Vec<D>::Zero(), spin);
     spread(state.positions[i],
            [&](std::size_t cell, double weight) { add_kinetic(cell, grain, rates, weight); });
   }

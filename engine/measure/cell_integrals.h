@@ -55,7 +55,8 @@ struct Coarsening {
 /// (track-length estimator) cuts each free flight at the cell borders. It adds the time spent in
 /// each cell, times 1, v_k, v_k v_l and so on. The snapshot estimator adds the particles at their
 /// positions whenever sample() is called. Collisions add to the cells along the branch vector. It
-/// points from particle 2, or from the contact point on a wall, to particle 1.
+/// points from particle 2, or from the contact point on a wall, to particle 1. In a sheared box
+/// velocities are without the flow, and the cells are those of the box at rest (theory 14).
 template <int D>
 class CellIntegrals : public Observer<D> {
  public:
@@ -99,7 +100,7 @@ class CellIntegrals : public Observer<D> {
                  const Spin<D>& spin) const;
   void add_flight(const Grain& grain, const Flight<D>& flight, const Spin<D>& spin, double end);
   void add_fall(const Grain& grain, const Flight<D>& flight, const Spin<D>& spin, double begin,
-                double end);
+                double end, const Vec<D>& acceleration);
   void end_flight(const ParticleChange<D>& particle, double time);
   void add_transfer(const Vec<D>& from, const Vec<D>& branch, const Vec<D>& momentum,
                     double energy);

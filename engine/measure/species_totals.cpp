@@ -107,12 +107,7 @@ void SpeciesTotals<D>::on_collision(const PairCollision<D>& collision) {
   pair.collisions += 1.0;
   pair.elasticised += collision.elasticised;
   const PairLaw law = simulation_.model().pair(first.grain.species, second.grain.species);
-  if (!collision.elasticised && law.dissipates()) {
-    pair.dissipated -= first.energy() + second.energy();
-    if (const auto rate = simulation_.model().shear_rate) {
-      pair.dissipated -= *rate * collision.separation[1] * first.gain.momentum[0];
-    }
-  }
+  if (!collision.elasticised && law.dissipates()) pair.dissipated -= collision.energy();
 }
 
 template <int D>

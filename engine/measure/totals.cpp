@@ -159,17 +159,15 @@ void Totals<D>::on_collision(const PairCollision<D>& collision) {
   for (const ParticleChange<D>& particle : collision.particles) change(particle, collision.time);
   window_.collisions += 1.0;
   window_.elasticised += collision.elasticised;
-  double gained = collision.particles[0].energy() + collision.particles[1].energy();
-  book(gained);
+  book(collision.particles[0].energy() + collision.particles[1].energy());
   if (simulation_.model().shear_rate) {
     // The flow has different velocities at the two centres, so the shear works in a collision too.
     const Vec<D>&x = collision.separation, &momentum = collision.particles[0].gain.momentum;
     for (const int k : {0, 1, 2, 3}) window_.plane[4 + k] += x[k / 2] * momentum[k % 2];
-    gained += rate() * x[1] * momentum[0];
   }
   // The gain of an elastic collision is a rounding error.
   const bool elastic = collision.elasticised || !simulation_.model().dissipates();
-  if (!elastic) window_.dissipated -= gained;
+  if (!elastic) window_.dissipated -= collision.energy();
   window_.undissipated += collision.undissipated;
   window_.virial += collision.particles[0].gain.momentum.dot(collision.separation);
 }

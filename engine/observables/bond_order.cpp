@@ -44,7 +44,7 @@ std::vector<Vec<2>> BondOrder::orders() {
   const std::size_t count = simulation_.particles().size();
   std::vector<Vec<2>> orders(count, Vec<2>::Zero());
   std::vector<double> neighbours(count, 0.0);
-  cells_.sort(simulation_.positions());
+  cells_.sort(simulation_.positions(), simulation_.domain());
   cells_.each_pair([&](std::uint32_t first, std::uint32_t second, const Vec<2>& apart) {
     if (!are_near(simulation_, first, second, apart, range_)) return;
     const std::complex<double> direction = std::complex(apart[0], apart[1]) / apart.norm();

@@ -68,7 +68,7 @@ void Clusters<D>::sample() {
   parent_.resize(count);
   std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   sizes_.assign(count, 1);
-  cells_.sort(simulation_.positions());
+  cells_.sort(simulation_.positions(), simulation_.domain());
   cells_.each_pair([&](std::uint32_t first, std::uint32_t second, const Vec<D>& apart) {
     if (are_near(simulation_, first, second, apart, range_)) join(first, second);
   });

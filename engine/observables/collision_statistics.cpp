@@ -43,7 +43,7 @@ template <int D>
 double dissipated(const PairCollision<D>& collision) {
   constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
   const auto& [first, second] = collision.particles;
-  const double loss = -(first.energy() + second.energy());
+  const double loss = -collision.energy();
   const double energy = energy_before(first) + energy_before(second);
   return collision.elasticised || loss < kRounding * energy ? 0.0 : loss;
 }
@@ -95,7 +95,7 @@ void CollisionStatistics<D>::restore(ArchiveReader& io) {
 template <int D>
 void CollisionStatistics<D>::on_collision(const PairCollision<D>& collision) {
   const auto& [first, second] = collision.particles;
-  const Vec<D> relative = first.velocity - second.velocity;
+  const Vec<D> relative = collision.approach();
   const Vec<D> normal = collision.separation.normalized();
   // Grazing particles may recede by rounding.
   const double normal_speed = std::max(0.0, -relative.dot(normal));

@@ -90,8 +90,21 @@ std::size_t NearCells<D>::cell_of(const Vec<D>& position) const {
   return cell;
 }
 
+// The entries of a row near a position, if the images of the row above or below have slid.
 template <int D>
-void NearCells<D>::sort(const std::vector<Vec<D>>& positions) {
+typename NearCells<D>::Run NearCells<D>::sheared_run(Vec<D> from, bool above,
+                                                     const std::size_t* row) const {
+  from[0] -= above ? offset_ : -offset_;
+  from[0] -= box_[0] * std::floor(from[0] / box_[0]);
+  const int along = static_cast<int>(from[0] * cells_per_length_[0]);
+  const std::size_t column = images_ + static_cast<std::size_t>(std::min(along, cells_[0] - 1));
+  const auto reach = static_cast<std::size_t>(reach_[0]);
+  return {row[column - reach], row[column + reach + 1], from};
+}
+
+template <int D>
+void NearCells<D>::sort(const std::vector<Vec<D>>& positions, const Domain<D>& domain) {
+  offset_ = domain.offset;
   const std::size_t count = positions.size();
   cell_of_particle_.resize(count);
   first_in_cell_.assign(cells() + 1, 0);

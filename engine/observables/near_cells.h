@@ -33,8 +33,8 @@ class NearCells {
   double range() const { return range_; }
   /// Number of cells.
   std::size_t cells() const { return static_cast<std::size_t>(cells_.prod()); }
-  /// Sorts particles by their positions in the box.
-  void sort(const std::vector<Vec<D>>& positions);
+  /// Sorts particles by their positions in the box, whose images are those of the domain.
+  void sort(const std::vector<Vec<D>>& positions, const Domain<D>& domain);
   /// [axis][entries] coordinates of particles and images; infinite in gaps between rows.
   const std::array<std::vector<double>, D>& coordinates() const { return coordinates_; }
 
@@ -79,6 +79,7 @@ class NearCells {
   void find_near_rows(const Model<D>& model);
   std::size_t cell_of(const Vec<D>& position) const;
   std::size_t fill_row(std::size_t row, const std::vector<Vec<D>>& positions, std::size_t entry);
+  Run sheared_run(Vec<D> from, bool above, const std::size_t* row) const;
   Vec<D> position(std::size_t entry) const {
     Vec<D> position;
     for (int axis = 0; axis < D; ++axis) position[axis] = coordinates_[axis][entry];
@@ -90,7 +91,8 @@ class NearCells {
   IntVec<D> cells_;  // along each axis; x is fastest
   IntVec<D> reach_;  // number of near cells to either side
   Vec<D> cells_per_length_;
-  std::size_t images_;  // columns of images at either end of a row
+  double offset_ = 0.0;  // along x of the next images above; 0 without shear
+  std::size_t images_;   // columns of images at either end of a row
   std::vector<Column> columns_;
   std::vector<std::vector<NearRow>> near_rows_;  // [rows]
   std::vector<std::size_t> cell_of_particle_;    // [N]
@@ -118,7 +120,11 @@ inline void NearCells<D>::each_run(const Visit& visit) const {
         visit(entry, Run{entry + 1, first[high], own});
         for (const NearRow& other : near) {
           const std::size_t* const start = &first_[other.row * (columns + 1)];
-          visit(entry, Run{start[low], start[high], own - other.shift});
+          if (offset_ != 0.0 && other.shift[1] != 0.0) [[unlikely]] {
+            visit(entry, sheared_run(own - other.shift, other.shift[1] > 0.0, start));
+          } else {
+            visit(entry, Run{start[low], start[high], own - other.shift});
+          }
         }
       }
     }

@@ -58,7 +58,8 @@ void Probe<D>::restore(ArchiveReader& io) {
 
 template <int D>
 void Probe<D>::sample() {
-  const State<D> state = simulation_.state();
+  State<D> state = simulation_.state();
+  add_flow(state, simulation_.domain(), -1.0);
   double number = 0.0, mass = 0.0, squares = 0.0;
   Vec<D> momentum = Vec<D>::Zero();
   for (std::size_t i = 0; i < state.positions.size(); ++i) {

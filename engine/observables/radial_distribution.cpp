@@ -153,7 +153,7 @@ void RadialDistribution<D>::count(const Coordinates<Real>& coordinates) {
 
 template <int D>
 void RadialDistribution<D>::sample() {
-  cells_.sort(simulation_.positions());
+  cells_.sort(simulation_.positions(), simulation_.domain());
   samples_ += 1.0;
   if (!single_precision_) return count(cells_.coordinates());
   for (int axis = 0; axis < D; ++axis) {

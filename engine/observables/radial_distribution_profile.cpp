@@ -143,7 +143,7 @@ void RadialDistributionProfile<D>::sample() {
     sums[ProfileSums::kNumbers + slab] += 1.0;
     slab_of_.push_back(static_cast<std::uint32_t>(slab));
   }
-  cells_.sort(positions);
+  cells_.sort(positions, simulation_.domain());
   double* const pairs = &sums[ProfileSums::kNumbers + slabs_];
   const double per_distance = 1.0 / width_;
   const double diameter = simulation_.model().diameter;

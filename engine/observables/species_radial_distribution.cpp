@@ -79,7 +79,7 @@ template <int D>
 void SpeciesRadialDistribution<D>::sample() {
   std::vector<double>& sums = sums_.values;
   sums[0] += 1.0;
-  cells_.sort(simulation_.positions());
+  cells_.sort(simulation_.positions(), simulation_.domain());
   cells_.each_pair([&](std::uint32_t first, std::uint32_t second, const Vec<D>& apart) {
     const Grain &a = simulation_.grain(first), &b = simulation_.grain(second);
     const std::size_t pair = pair_index(a.species, b.species);

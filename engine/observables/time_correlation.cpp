@@ -71,11 +71,13 @@ ObservableResult MeanSquaredDisplacement<D>::result(const ObservableParts& parts
   for (std::size_t group = 0; group < groups_.count(); ++group) {
     const std::size_t drift = 1 + 2 * D * group, squares = drift + D;
     const std::string of = groups_.suffix(group);
-    table.add("total" + of, "a^2", squares, D, 1.0);
-    for (int axis = 0; axis < D; ++axis) {
+    // Along x the flow carries the particles of a sheared box.
+    const int first = simulation_.model().shear_rate ? 1 : 0;
+    if (first == 0) table.add("total" + of, "a^2", squares, D, 1.0);
+    for (int axis = first; axis < D; ++axis) {
       table.add(axis_name(axis) + of, "a^2", squares + static_cast<std::size_t>(axis), 1, 1.0);
     }
-    for (int axis = 0; axis < D; ++axis) {
+    for (int axis = first; axis < D; ++axis) {
       table.add("drift_" + axis_name(axis) + of, "a", drift + static_cast<std::size_t>(axis), 1,
                 1.0);
     }
@@ -102,8 +104,7 @@ void VelocityAutocorrelation<D>::sample() {
   std::vector<Vec<D>> velocities;
   velocities.reserve(simulation_.particles().size());
   for (const Particle<D>& particle : simulation_.particles()) {
-    velocities.push_back(
-        particle.flight.velocity_at(simulation_.base_time(), simulation_.model().gravity));
+    velocities.push_back(simulation_.peculiar_at(particle.flight, simulation_.base_time()));
   }
   history_.add(velocities, [&](std::size_t lag, const std::vector<Vec<D>>& earlier) {
     double* const row = &sums_.values[lag * row_size()];

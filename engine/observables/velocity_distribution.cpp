@@ -86,9 +86,10 @@ void VelocityDistribution<D>::find_velocities() {
   const bool mixed = simulation_.is_mixture();
   if (region_) {
     const State<D> state = simulation_.state();
+    const Domain<D> domain = simulation_.domain();
     for (std::size_t i = 0; i < state.positions.size(); ++i) {
       if (!region_->contains(state.positions[i])) continue;
-      velocities_.push_back(state.velocities[i]);
+      velocities_.push_back(domain.peculiar(state.positions[i], state.velocities[i]));
       if (mixed) note(state.grains[i]);
     }
     return;
@@ -96,7 +97,7 @@ void VelocityDistribution<D>::find_velocities() {
   const double now = simulation_.base_time();
   for (std::uint32_t i = 0; i < simulation_.particles().size(); ++i) {
     const Flight<D>& flight = simulation_.particles()[i].flight;
-    velocities_.push_back(flight.velocity_at(now, simulation_.model().gravity));
+    velocities_.push_back(simulation_.peculiar_at(flight, now));
     if (mixed) note(simulation_.grain(i));
   }
 }

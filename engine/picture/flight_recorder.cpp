@@ -94,35 +94,20 @@ void FlightRecorder<D>::add_piece(std::vector<FlightPiece>& pieces, const Ended&
                     ended.flight.velocity_at(from, ended.gravity), ended.gravity});
 }
 
-// The parts of a straight flight in each image that it crosses.
 template <int D>
 void FlightRecorder<D>::add_sheared_pieces(std::vector<FlightPiece>& pieces, const Ended& ended,
                                            double from) const {
   const double now = simulation_.base_time();
-  const Domain<D> domain = simulation_.domain();
-  const auto& [r, v, start, number] = ended.flight;
-  const double height = domain.box[1], step = v[1] < 0.0 ? -1.0 : 1.0;
-  double image = std::floor((r[1] + v[1] * (from - start)) / height);
-  while (from < ended.end) {
-    const double border = (image + (step > 0.0 ? 1.0 : 0.0)) * height;
-    const double crossing = v[1] != 0.0 ? start + (border - r[1]) / v[1] : ended.end;
-    const double to = std::min(ended.end, std::max(from, crossing));
-    const Domain<D> then = domain.at(from - now);
-    Vec<D> place = r + v * (from - start), velocity = v;
-    place -= then.shift(image * Vec<D>::Unit(1));
-    place -= Vec<D>::Unit(0) * std::floor(place[0] / domain.box[0]) * domain.box[0];
-    for (int axis = 2; axis < D; ++axis) {
-      if (domain.periodic[axis]) {
-        place[axis] -= std::floor(place[axis] / domain.box[axis]) * domain.box[axis];
-      }
+  const Domain<D> domain = simulation_.domain_at(0.0);
+  const auto add = [&](const Flight<D>& seen, double begin, double end) {
+    Vec<D> place = seen.at(begin, Vec<D>::Zero());
+    for (int axis = 0; axis < D; ++axis) {
+      if (axis == 1 || !domain.periodic[axis]) continue;
+      place[axis] -= std::floor(place[axis] / domain.box[axis]) * domain.box[axis];
     }
-    velocity[0] -= image * domain.slide;
-    if (to > from) {
-      pieces.push_back({ended.particle, from - now, to - now, place, velocity, Vec<D>::Zero()});
-    }
-    from = to;
-    image += step;
-  }
+    pieces.push_back({ended.particle, begin - now, end - now, place, seen.v, Vec<D>::Zero()});
+  };
+  cut_at_images(domain, ended.flight, from, ended.end, add);
 }
 
 template <int D>

@@ -63,6 +63,7 @@ LiveField<D>::LiveField(Simulation<D>& simulation, const View& view)
     : field_(view.field),
       species_(species_of(simulation, view)),
       arrows_(view.arrows),
+      domain_(simulation.model().domain()),
       averages_(averages_for(simulation, view)),
       closure_(closure_for(simulation, view)),
       start_(simulation.time() + view.window / kWindowParts),
@@ -76,6 +77,7 @@ LiveField<D>::LiveField(Simulation<D>& simulation, const View& view, LiveField&&
     : field_(view.field),
       species_(species_of(simulation, view)),
       arrows_(view.arrows),
+      domain_(simulation.model().domain()),
       averages_(averages_for(simulation, view)),
       closure_(closure_for(simulation, view)),
       start_(before.start_),
@@ -97,6 +99,7 @@ LiveField<D>::LiveField(Simulation<D>& simulation, const View& view, ArchiveRead
     : field_(view.field),
       species_(species_of(simulation, view)),
       arrows_(view.arrows),
+      domain_(simulation.model().domain()),
       averages_(averages_for(simulation, view)),
       closure_(closure_for(simulation, view)),
       timers_(simulation) {
@@ -117,7 +120,7 @@ std::string LiveField<D>::save() {
 template <int D>
 template <class Archive>
 void LiveField<D>::visit(Archive& io) {
-  auto& [field, species, arrows, averages, closure, start, closed, sampled_from, samples,
+  auto& [field, species, arrows, domain, averages, closure, start, closed, sampled_from, samples,
          of_averages, of_closure, timers] = *this;
   if (averages) io(averages->observer, averages->sums);
   if (closure) io(closure->observer, closure->sums);
@@ -173,10 +176,11 @@ FieldMap LiveField<D>::Closure::map(Field field) const {
 }
 
 // One arrow per block of cells, so that arrows remain distinguishable. Sums are additive over
-// cells, so an arrow is the field of its block as one large cell.
+// cells, so an arrow is the field of its block as one large cell. Arrows of the velocity include
+// the flow of a sheared box.
 template <int D>
 static ArrowMap arrow_map(Quantity arrows, const CellSums& sums, const FieldGrid<D>& grid,
-                          const MomentLayout<D>& layout) {
+                          const MomentLayout<D>& layout, const Domain<D>& domain) {
   constexpr int kMaxArrows = 20;  // along an axis
   const IntVec<D>& cells = grid.cells();
   const int edge = (cells.maxCoeff() + kMaxArrows - 1) / kMaxArrows;
@@ -196,8 +200,9 @@ static ArrowMap arrow_map(Quantity arrows, const CellSums& sums, const FieldGrid
     Vec<D> value;
     for (int axis = 0; axis < D; ++axis) value[axis] = field_value(Field(arrows, axis), averages);
     if (value.hasNaN()) continue;
-    const Vec<D> middle = 0.5 * (first + end).template cast<double>();
-    map.arrows.push_back({middle.cwiseProduct(grid.widths()), value});
+    const Vec<D> middle = (0.5 * (first + end).template cast<double>()).cwiseProduct(grid.widths());
+    if (arrows == Quantity::Velocity) value += domain.flow(middle);
+    map.arrows.push_back({middle, value});
   }
   return map;
 }
@@ -218,7 +223,7 @@ void LiveField<D>::publish(Snapshot& snapshot) {
     snapshot.field->species = species_;
     snapshot.field->whole_window = averages_->sums.whole();
   }
-  if (arrows_) snapshot.arrows = arrow_map(*arrows_, sums, grid, layout);
+  if (arrows_) snapshot.arrows = arrow_map(*arrows_, sums, grid, layout, domain_);
 }
 
 template class LiveField<2>;

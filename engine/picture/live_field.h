@@ -36,7 +36,8 @@ class LiveField {
   /// Ends the present part of the averages, before the laws change.
   void look();
   /// Writes the field and arrows of the view into the snapshot. They are averages over the window
-  /// up to the simulation's time, or since the start if that is shorter.
+  /// up to the simulation's time, or since the start if that is shorter. In a sheared box arrows of
+  /// the velocity include the flow, and fields do not.
   void publish(Snapshot& snapshot);
 
  private:
@@ -62,6 +63,7 @@ class LiveField {
   std::optional<Field> field_;
   std::string species_;  // name of the field's species
   std::optional<Quantity> arrows_;
+  Domain<D> domain_;                  // of the simulation, whose flow the arrows show
   std::optional<Averages> averages_;  // present with arrows, or if the field is an average
   std::optional<Closure> closure_;    // present if the field is a residual
   double start_;                      // simulation time at which the first part closes

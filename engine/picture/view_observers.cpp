@@ -75,7 +75,6 @@ void ViewObservers<D>::set_rotations(const std::vector<Rotation<D>>& rotations) 
 
 template <int D>
 void ViewObservers<D>::watch_field(ViewObservers* before) {
-  if (simulation_.model().shear_rate) return;  // fields do not know the flow
   if (before && before->field_ && before->view_.averages_like(view_)) {
     field_.emplace(simulation_, view_, std::move(*before->field_));
   } else {

@@ -442,17 +442,23 @@ static void check_shear(const Scene& scene, const toml::table& root, const std::
                " and a second side of at least " + number_text(height));
   }
   const Measure& measure = scene.measure;
-  if (!measure.fields.empty() || !measure.observables.empty()) {
-    refuse(measure.fields.empty() ? "measure.observables" : "measure.fields",
-           "fields and observables do not know the flow of a sheared box",
-           "remove them: the result has temperatures, stresses and the viscosity");
+  const View& view = scene.view;
+  const bool drawn = view.field && is_residual(*view.field);
+  if (drawn || std::ranges::any_of(measure.fields, is_residual)) {
+    refuse(drawn ? "view.field" : "measure.fields",
+           "the balance equations of a cell do not include the shear", "remove the residuals");
   }
-  if (scene.view.field || scene.view.arrows) {
-    refuse(scene.view.field ? "view.field" : "view.arrows",
-           "heatmaps and arrows do not know the flow of a sheared box", "remove it");
+  if (measure.kernel == Kernel::Gaussian) {
+    refuse("measure.kernel", "a Gaussian does not reach across the sheared border",
+           "remove it: the box kernel has exact averages");
   }
-  if (std::ranges::any_of(scene.view.plots, is_profile)) {
-    refuse("view.plots", "profiles do not know the flow of a sheared box", "remove them");
+  if (measure.observes(ObservableKind::StructureFactor)) {
+    refuse("measure.observables", "a sheared box has other wave vectors at each time",
+           "remove \"structure_factor\"");
+  }
+  if (measure.observes(ObservableKind::PlaneCurrent) && measure.plane_current.axis == Axis::X) {
+    refuse("measure.observables", "the flow of a sheared box crosses a plane across x",
+           "set measure.plane_current.axis to \"y\" or \"z\", or remove \"plane_current\"");
   }
 }
 

@@ -23,27 +23,6 @@ namespace clatter::sheared_boxes {
 
 using namespace clatter::testing;
 
-template <int D>
-Model<D> sheared(Model<D> model, double rate) {
-  model.shear_rate = rate;
-  return model;
-}
-
-// The same particles with the flow of the model.
-template <int D>
-State<D> in_flow(const Model<D>& model, State<D> state) {
-  const Domain<D> domain = model.domain();
-  for (std::size_t i = 0; i < state.positions.size(); ++i) {
-    state.velocities[i] += domain.flow(state.positions[i]);
-  }
-  return state;
-}
-
-template <int D>
-State<D> gas_in_flow(const Model<D>& model, int count) {
-  return in_flow<D>(model, clear_gas(model, count, 81));
-}
-
 // Deepest overlap of two particles through any image, as a share of the diameter.
 template <int D>
 double deepest_overlap(const Simulation<D>& simulation) {

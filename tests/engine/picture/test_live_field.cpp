@@ -310,3 +310,26 @@ TEST_CASE("LiveField: a residual and arrows do not change each other") {
     CHECK(both.arrows->arrows[k].value == arrows.arrows[k].value);
   }
 }
+
+// The gas moves with the flow G (y - 4): at rest in the middle, and at 0.9 of -+4 G in the outer
+// cells, whose centres are 0.5 from the edges. The mean of N particles in a row scatters.
+TEST_CASE("LiveField: arrows of a sheared box include the flow, and fields do not") {
+  Scene scene = gas(40.0, 8.0, 100, 0.9);
+  scene.shear_rate = 2.0;
+  const auto simulation = simulation_of<2>(scene, 36);
+  View view = view_of({Quantity::Velocity, 0}, 50.0);
+  view.arrows = Quantity::Velocity;
+  LiveField<2> live(*simulation, view);
+  simulation->run_until(50.0);
+  Snapshot snapshot;
+  live.publish(snapshot);
+  const double thermal = std::sqrt(simulation->temperature());
+  double largest = 0.0;
+  for (const double value : snapshot.field->values) largest = std::max(largest, std::fabs(value));
+  CHECK(largest < thermal);
+  for (const auto& arrow : snapshot.arrows->arrows) {
+    const double flow = 2.0 * (arrow.place[1] - 4.0);
+    CHECK(std::fabs(arrow.value[0] - flow) < thermal);
+  }
+  REQUIRE(snapshot.arrows->arrows.size() >= 20);
+}

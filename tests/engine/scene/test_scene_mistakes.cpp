@@ -175,11 +175,13 @@ TEST_CASE("Scene file: mistakes are reported with their place and a fix") {
       {sheared + "[[obstacle]]\nkind = \"ball\"\ncentre = [3, 3]\nradius = 1\n", "7:3",
        "no bodies at rest"},
       {sheared + "[gravity]\nacceleration = [0, -1]\n", "7:1", "no gravity"},
-      {sheared + "[measure]\nfields = [\"density\"]\n", "8:1", "do not know the flow"},
-      {sheared + "[measure]\nobservables = [\"clusters\"]\n", "8:1", "do not know the flow"},
-      {sheared + "[view]\nfield = \"density\"\n", "8:1", "do not know the flow"},
-      {sheared + "[view]\narrows = \"velocity\"\n", "8:1", "do not know the flow"},
-      {sheared + "[view]\nplots = [\"density_profile\"]\n", "8:1", "do not know the flow"},
+      {sheared + "[measure]\nfields = [\"balance\"]\n", "8:1", "do not include the shear"},
+      {sheared + "[view]\nfield = \"balance_mass\"\n", "8:1", "do not include the shear"},
+      {sheared + "[measure]\nkernel = \"gaussian\"\nwidth = 1\nestimator = \"snapshot\"\n"
+                 "interval = 1\n",
+       "8:1", "across the sheared border"},
+      {sheared + "[measure]\nobservables = [\"structure_factor\"]\n", "8:1", "wave vectors"},
+      {sheared + "[measure]\nobservables = [\"plane_current\"]\n", "8:1", "a plane across x"},
       {sheared + "[[change]]\ntime = 1\nreverse = true\n", "9:1", "cannot be reversed"},
       {"box.size = [9, 9, 9]\nparticles.count = 9\nshear.rate = 1\n[walls.back]\nkind = "
        "\"thermal\"\ntemperature = 1\n[walls.front]\n" +

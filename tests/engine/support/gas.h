@@ -27,6 +27,22 @@ State<D> clear_gas(const Model<D>& model, int count, std::uint64_t seed);
 template <int D>
 State<D> mixed(const Model<D>& model, State<D> state, double ratio);
 
+/// The same particles with the flow of a sheared model.
+template <int D>
+State<D> in_flow(const Model<D>& model, State<D> state) {
+  const Domain<D> domain = model.domain();
+  for (std::size_t i = 0; i < state.positions.size(); ++i) {
+    state.velocities[i] += domain.flow(state.positions[i]);
+  }
+  return state;
+}
+
+/// A clear_gas with the flow of a sheared model.
+template <int D>
+State<D> gas_in_flow(const Model<D>& model, int count) {
+  return in_flow<D>(model, clear_gas(model, count, 81));
+}
+
 /// A clear_gas with these species.
 template <int D>
 State<D> mixed_gas(const Model<D>& model, int count, std::uint64_t seed, double ratio);

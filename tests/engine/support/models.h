@@ -40,6 +40,13 @@ inline Model<3> periodic_box(double lx, double ly, double lz) {
   return periodic_box<3>({lx, ly, lz});
 }
 
+/// The same model with images that slide along x.
+template <int D>
+Model<D> sheared(Model<D> model, double rate) {
+  model.shear_rate = rate;
+  return model;
+}
+
 /// The same model with equal walls at both ends of an axis.
 template <int D>
 Model<D> with_walls(Model<D> model, int axis, const Wall& wall) {
