@@ -158,11 +158,6 @@ void prepare_outputs(const MeasureOptions& options, const Scene& scene,
   }
   if (!options.trajectory.empty()) {
     trajectory_format(options.trajectory, "--trajectory");
-    if (scene.shear_rate) {
-      throw UserError({"--trajectory", 0, 0},
-                      "trajectories have boxes at right angles, and a sheared box has none",
-                      "remove --trajectory; --events has the collisions");
-    }
     if (final_count(scene) != scene.particles.count) {
       throw UserError({"--trajectory", 0, 0},
                       "all frames of a trajectory have the same particles, and a puff adds some",

@@ -25,7 +25,7 @@ std::vector<GsdChunk> hoomd_chunks(const TrajectoryParticles& all) {
   std::vector<GsdChunk> chunks = {
       {"configuration/step", UInt64, 1},
       {"configuration/dimensions", UInt8, 1, 1, true},
-      {"configuration/box", Float, 6, 1, true},
+      {"configuration/box", Float, 6, 1, !all.sheared},
       {"particles/N", UInt32, 1, 1, true},
       {"particles/mass", Float, particles, 1, true},
       {"particles/diameter", Float, particles, 1, true},
@@ -43,6 +43,7 @@ std::vector<GsdChunk> hoomd_chunks(const TrajectoryParticles& all) {
     chunks.push_back({"particles/angmom", Float, particles, 4});
     chunks.push_back({"log/particles/angular_velocity", Double, particles, 3});
   }
+  if (all.sheared) chunks.push_back({"log/configuration/tilt", Double, 1});
   if (!all.is_mixture()) return chunks;
   chunks.push_back({"particles/types", Int8, all.species.size(), name_width(all), true});
   chunks.push_back({"particles/typeid", UInt32, particles, 1, true});
@@ -141,6 +142,7 @@ void GsdTrajectory<D>::add(const TrajectoryFrame<D>& frame) {
   std::array<double, 3> box = in_space(model.box);  // disks have no extent along z
   const auto centred = [&](std::array<double, 3> position) {
     for (std::size_t axis = 0; axis < 3; ++axis) position[axis] -= 0.5 * box[axis];
+    position[0] -= 0.5 * frame.tilt;
     return position;
   };
   std::vector<std::uint8_t> periodic;
@@ -149,7 +151,8 @@ void GsdTrajectory<D>::add(const TrajectoryFrame<D>& frame) {
   std::vector<std::string> data = {
       chunk_bytes(std::vector{static_cast<std::uint64_t>(frame.number)}),
       chunk_bytes(std::vector{static_cast<std::uint8_t>(D)}),
-      chunk_bytes(std::vector{single(box[0]), single(box[1]), single(box[2]), 0.0f, 0.0f, 0.0f}),
+      chunk_bytes(std::vector{single(box[0]), single(box[1]), single(box[2]),
+                              single(frame.tilt / box[1]), 0.0f, 0.0f}),
       chunk_bytes(std::vector{static_cast<std::uint32_t>(grains.size())}),
       grain_bytes<float>(grains, mass_of),
       grain_bytes<float>(grains, diameter_of),
@@ -166,6 +169,7 @@ void GsdTrajectory<D>::add(const TrajectoryFrame<D>& frame) {
     const auto [moments, momenta] = rotation_bytes(frame, grains);
     data.insert(data.end(), {moments, momenta, chunk_bytes<double>(frame.state.spins)});
   }
+  if (particles_.sheared) data.push_back(chunk_bytes(std::vector{frame.tilt}));
   if (particles_.is_mixture()) {
     data.push_back(type_bytes(particles_));
     data.push_back(grain_bytes<std::uint32_t>(grains, [](const Grain& g) { return g.species; }));

@@ -404,6 +404,14 @@ void H5mdReader::require_dimension() const {
   });
 }
 
+double H5mdReader::tilt(std::size_t frame) const {
+  return checked([&] {
+    std::vector<hsize_t> shape;
+    const std::vector<double> edges = read_row("box/edges", frame, shape);
+    return edges.size() == 9 ? edges[3] : 0.0;
+  });
+}
+
 std::vector<double> H5mdReader::box(std::size_t frame) const {
   return checked([&] {
     if (!particles_.openGroup("box").nameExists("edges")) {

@@ -44,6 +44,8 @@ class H5mdReader {
   std::vector<std::optional<double>> ids(std::size_t frame) const;
   /// Throws unless the box has as many dimensions as the positions have components.
   void require_dimension() const;
+  /// The x component of the edge along y of a box in three dimensions; 0 without edge vectors.
+  double tilt(std::size_t frame) const;
   /// Edge lengths of a box without tilt.
   std::vector<double> box(std::size_t frame) const;
   /// Whether each axis of the box is periodic.

@@ -22,8 +22,8 @@ namespace {
 
 constexpr hsize_t kH5mdChunk = 8192;  // particles of one frame, or of several
 
-// A record is a frame as doubles: number, time, and the vectors of each quantity.
-constexpr std::size_t kRecordHead = 2;
+// A record is a frame as doubles: number, time, tilt, and the vectors of each quantity.
+constexpr std::size_t kRecordHead = 3;
 
 std::vector<std::string> h5md_quantities(bool spins) {
   std::vector<std::string> names = {"position", "velocity", "image"};
@@ -45,7 +45,7 @@ void copy_records(const std::filesystem::path& path, std::size_t particles, bool
   const H5mdReader reader(path);
   GrowingFile records(copy, 0);
   for (std::size_t k = 0; k < reader.frames(); ++k) {
-    std::vector<double> record = {reader.step(k), reader.time(k)};
+    std::vector<double> record = {reader.step(k), reader.time(k), reader.tilt(k)};
     for (const std::string& name : h5md_quantities(spins)) {
       const std::vector<double> numbers = reader.vectors(name, k);
       record.insert(record.end(), numbers.begin(), numbers.end());
@@ -120,7 +120,7 @@ H5mdTrajectory<D>::H5mdTrajectory(const std::filesystem::path& path, const Model
 
 template <int D>
 void H5mdTrajectory<D>::add(const TrajectoryFrame<D>& frame) {
-  std::vector<double> record = {static_cast<double>(frame.number), frame.time};
+  std::vector<double> record = {static_cast<double>(frame.number), frame.time, frame.tilt};
   const auto add_vectors = [&](const auto& vectors) {
     for (const auto& vector : vectors) {
       for (const auto number : in_space(vector)) record.push_back(static_cast<double>(number));
@@ -170,14 +170,15 @@ void H5mdTrajectory<D>::finish() {
     }
 
     const std::array<double, 3> box_size = extents(model_);
-    std::array<double, 9> diagonal = {};
-    for (std::size_t axis = 0; axis < 3; ++axis) diagonal[4 * axis] = box_size[axis];
+    std::array<double, 9> corners = {};  // the vectors of the edges, row by row
+    for (std::size_t axis = 0; axis < 3; ++axis) corners[4 * axis] = box_size[axis];
     std::vector<double> record(h5md_record_size(particles, spins));
     const auto size = static_cast<std::streamsize>(record.size() * sizeof(double));
     while (records.read(reinterpret_cast<char*>(record.data()), size)) {
       step.append(&record[0], 1);
       time.append(&record[1], 1);
-      edge.append(diagonal.data(), 1);
+      corners[3] = record[2];
+      edge.append(corners.data(), 1);
       for (std::size_t k = 0; k < values.size(); ++k) {
         values[k].append(record.data() + kRecordHead + k * 3 * particles, 1);
       }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <iterator>
 #include <span>
@@ -49,10 +50,10 @@ void add_xyz(TextBuffer& text, const TrajectoryFrame<D>& frame) {
   // Disks are in the middle of their layer.
   const std::string origin = D == 2 ? fmt::format(" Origin=\"0 0 {}\"", -0.5 * lz) : "";
   fmt::format_to(std::back_inserter(text),
-                 "{}\nLattice=\"{} 0 0 0 {} 0 0 0 {}\"{} pbc=\"{} {} {}\" Time={}{} "
+                 "{}\nLattice=\"{} 0 0 {} {} 0 0 0 {}\"{} pbc=\"{} {} {}\" Time={}{} "
                  "Properties=species:S:1:pos:R:3:velo:R:3{}:map_shift:I:3:radius:R:1{}\n",
-                 frame.state.positions.size(), lx, ly, lz, origin, pbc(0), pbc(1), pbc(2),
-                 frame.time, type_names(frame.particles), spins ? ":omega:R:3" : "",
+                 frame.state.positions.size(), lx, frame.tilt, ly, lz, origin, pbc(0), pbc(1),
+                 pbc(2), frame.time, type_names(frame.particles), spins ? ":omega:R:3" : "",
                  frame.particles.is_mixture() ? ":type:I:1:masses:R:1" : "");
   for (std::size_t i = 0; i < frame.state.positions.size(); ++i) {
     text.push_back('X');
@@ -74,13 +75,19 @@ void add_dump(TextBuffer& text, const TrajectoryFrame<D>& frame) {
   const bool spins = !frame.state.spins.empty();
   const std::array<double, 3> box = extents(model);
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS",
-                 frame.number, frame.state.positions.size());
+  fmt::format_to(out, "ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS{}",
+                 frame.number, frame.state.positions.size(),
+                 frame.particles.sheared ? " xy xz yz" : "");
   for (int axis = 0; axis < 3; ++axis) {
     fmt::format_to(out, " {}", is_periodic(model, axis) ? "pp" : "ff");
   }
   const double depth = D == 2 ? 0.5 * box[2] : 0.0;  // disks are in the middle of their layer
-  fmt::format_to(out, "\n0 {}\n0 {}\n{} {}\n", box[0], box[1], 0.0 - depth, box[2] - depth);
+  // The bounds of a tilted box are those of the rectangle around it.
+  const double left = std::min(0.0, frame.tilt), right = box[0] + std::max(0.0, frame.tilt);
+  const std::string xy = frame.particles.sheared ? fmt::format(" {}", frame.tilt) : "";
+  const char* const none = frame.particles.sheared ? " 0" : "";
+  fmt::format_to(out, "\n{} {}{}\n0 {}{}\n{} {}{}\n", left, right, xy, box[1], none, 0.0 - depth,
+                 box[2] - depth, none);
   const bool mixture = frame.particles.is_mixture();
   fmt::format_to(out, "ITEM: ATOMS id type radius{} x y z ix iy iz vx vy vz{}\n",
                  mixture ? " mass" : "", spins ? " omegax omegay omegaz" : "");
@@ -116,6 +123,9 @@ void add_csv(TextBuffer& text, const TrajectoryFrame<D>& frame) {
     add(frame.images[i]);
     add(frame.state.velocities[i]);
     if (spins) add(frame.state.spins[i]);
+    if (frame.particles.sheared) {
+      fmt::format_to(std::back_inserter(text), ",{}", frame.tilt);
+    }
     if (frame.particles.is_mixture()) {
       const Grain& grain = frame.particles.grains[i];
       fmt::format_to(std::back_inserter(text), ",{},{},{}", 2.0 * grain.radius, grain.mass,
@@ -156,8 +166,8 @@ std::string header_text(TrajectoryFormat format, const TrajectoryParticles& part
   if (format != TrajectoryFormat::Csv) return "";
   const std::string spin = D == 2 ? ",omega" : axis_names("omega_", 3);
   return "time,particle" + axis_names("", D) + axis_names("image_", D) + axis_names("v", D) +
-         (particles.spins ? spin : "") + (particles.is_mixture() ? ",diameter,mass,species" : "") +
-         '\n';
+         (particles.spins ? spin : "") + (particles.sheared ? ",tilt" : "") +
+         (particles.is_mixture() ? ",diameter,mass,species" : "") + '\n';
 }
 
 template std::string header_text<2>(TrajectoryFormat, const TrajectoryParticles&);

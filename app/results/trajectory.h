@@ -35,6 +35,7 @@ TrajectoryFormat trajectory_format(const std::filesystem::path& file, const char
 struct TrajectoryParticles {
   std::size_t count = 0;
   bool spins = false;                     ///< whether frames have angular velocities
+  bool sheared = false;                   ///< whether the box of frames is tilted
   std::vector<std::string> species = {};  ///< names of the species; empty: all particles are alike
   std::vector<Grain> grains = {};         ///< [N] of a mixture, otherwise empty
 
@@ -51,6 +52,7 @@ struct TrajectoryFrame {
   const TrajectoryParticles& particles;
   State<D> state;
   std::vector<IntVec<D>> images;  ///< [N] periodic images, see PeriodicImages
+  double tilt = 0.0;  ///< x of the edge of the box along y, within half a side; 0 without shear
 };
 
 /// The text before the first frame of a text format.

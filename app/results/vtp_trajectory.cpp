@@ -42,18 +42,26 @@ std::string names_xml(const std::vector<std::string>& names) {
       names.size(), codes);
 }
 
-// The time, the size and the periodic axes of the box, and the names of the species.
+std::string number_xml(const char* name, double number) {
+  return fmt::format(
+      "      <DataArray type=\"Float64\" Name=\"{}\" NumberOfTuples=\"1\" "
+      "format=\"ascii\">{}</DataArray>\n",
+      name, number);
+}
+
+// The time, the size, the periodic axes and the tilt of the box, and the names of the species.
 template <int D>
 std::string fields_xml(const TrajectoryFrame<D>& frame) {
   const auto [lx, ly, lz] = extents(frame.model);
   const auto periodic = [&](int axis) { return is_periodic(frame.model, axis) ? 1 : 0; };
   return fmt::format(
-             "    <FieldData>\n      <DataArray type=\"Float64\" Name=\"TimeValue\" "
-             "NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n      <DataArray "
+             "    <FieldData>\n{}      <DataArray "
              "type=\"Float64\" Name=\"box\" NumberOfTuples=\"3\" format=\"ascii\">{} {} "
              "{}</DataArray>\n      <DataArray type=\"UInt8\" Name=\"periodic\" "
              "NumberOfTuples=\"3\" format=\"ascii\">{} {} {}</DataArray>\n",
-             frame.time, lx, ly, lz, periodic(0), periodic(1), periodic(2)) +
+             number_xml("TimeValue", frame.time), lx, ly, lz, periodic(0), periodic(1),
+             periodic(2)) +
+         (frame.particles.sheared ? number_xml("tilt", frame.tilt) : "") +
          (frame.particles.is_mixture() ? names_xml(frame.particles.species) : "") +
          "    </FieldData>\n";
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdint>
 
 #include "engine/checkpoint/archive.h"
@@ -25,6 +26,22 @@ template <class Archive>
 void visit(Archive& io, SavedTrajectory& saved) {
   auto& [every, next, bytes, format, spins] = saved;
   io(every, next, bytes, format, spins);
+}
+
+// Moves the particles of a sheared box into the cell whose edge along y leads to the next image
+// above. Readers require that it leans by at most half a side.
+template <int D>
+void tilt(TrajectoryFrame<D>& frame, const Domain<D>& domain) {
+  const double length = domain.box[0], height = domain.box[1];
+  const double boxes = std::round(domain.offset / length);
+  frame.tilt = domain.offset - boxes * length;
+  for (std::size_t i = 0; i < frame.images.size(); ++i) {
+    Vec<D>& r = frame.state.positions[i];
+    IntVec<D>& image = frame.images[i];
+    const double out = std::floor((r[0] - frame.tilt * r[1] / height) / length);
+    r[0] -= out * length;
+    image[0] += static_cast<int>(boxes) * image[1] + static_cast<int>(out);
+  }
 }
 
 }  // namespace
@@ -83,8 +100,10 @@ TrajectoryRecorder<D>::TrajectoryRecorder(const std::filesystem::path& path, dou
 template <int D>
 TrajectoryParticles TrajectoryRecorder<D>::particles_of(const Simulation<D>& simulation, bool spins,
                                                         const std::vector<std::string>& species) {
-  TrajectoryParticles particles{
-      .count = simulation.particles().size(), .spins = spins, .species = species};
+  TrajectoryParticles particles{.count = simulation.particles().size(),
+                                .spins = spins,
+                                .sheared = simulation.model().shear_rate.has_value(),
+                                .species = species};
   for (std::uint32_t i = 0; !species.empty() && i < particles.count; ++i) {
     particles.grains.push_back(simulation.grain(i));
   }
@@ -104,6 +123,7 @@ void TrajectoryRecorder<D>::add(const Simulation<D>& simulation) {
                            .particles = particles_,
                            .state = simulation.state(),
                            .images = images_->images()};
+  if (const Domain<D> domain = simulation.domain(); domain.sheared) tilt(frame, domain);
   frame.state.spins.resize(particles_.spins ? frame.state.positions.size() : 0, Spin<D>::Zero());
   file_->add(frame);
   ++next_;

@@ -1,16 +1,40 @@
 #include "engine/observables/periodic_images.h"
 
+#include <cmath>
+
 namespace clatter {
 
 template <int D>
 PeriodicImages<D>::PeriodicImages(Simulation<D>& simulation)
-    : simulation_(simulation), observation_(simulation, *this) {
+    : simulation_(simulation), domain_(simulation.domain()), observation_(simulation, *this) {
   on_laws();
+}
+
+// The offset of a sheared box is kept small by whole boxes, which count as images along x.
+template <int D>
+void PeriodicImages<D>::follow_offset(double before, double after) {
+  const auto boxes = static_cast<int>(std::lround((before - after) / domain_.box[0]));
+  if (boxes == 0) return;
+  for (IntVec<D>& image : of_flights_) image[0] += image[1] * boxes;
+}
+
+template <int D>
+void PeriodicImages<D>::on_base_moved(double shift) {
+  const double before = domain_.at(shift).offset;
+  domain_ = simulation_.domain_at(0.0);
+  follow_offset(before, domain_.offset);
+}
+
+template <int D>
+void PeriodicImages<D>::before_laws(const Model<D>&) {
+  domain_ = simulation_.domain();
 }
 
 // Particles that enter begin with image 0.
 template <int D>
 void PeriodicImages<D>::on_laws() {
+  follow_offset(domain_.offset, simulation_.domain().offset);
+  domain_ = simulation_.domain_at(0.0);
   while (of_flights_.size() < simulation_.particles().size()) {
     of_flights_.push_back(-image_in_flight(of_flights_.size()));
   }
@@ -44,12 +68,13 @@ IntVec<D> PeriodicImages<D>::image_in_flight(std::size_t particle) const {
   const Model<D>& model = simulation_.model();
   const Vec<D> r =
       simulation_.particles()[particle].flight.at(simulation_.base_time(), model.gravity);
-  const Domain<D> domain = model.domain();
+  const Domain<D> domain = simulation_.domain();
   IntVec<D> image = domain.image_at(r).template cast<int>();
   const Vec<D> place = domain.wrapped(r);
   for (int axis = 0; axis < D; ++axis) {
     // state() wraps this position to 0.
-    if (domain.periodic[axis] && place[axis] == domain.box[axis]) ++image[axis];
+    const bool at_end = domain.periodic[axis] && place[axis] == domain.box[axis];
+    if (at_end && !(domain.sheared && axis == 1)) ++image[axis];
   }
   return image;
 }

@@ -8,7 +8,8 @@
 namespace clatter {
 
 /// Periodic images of the particles: the whole box lengths that each has moved along periodic axes
-/// since this observer was made. Position + image * box is the unwrapped position.
+/// since this observer was made. Position + Domain::shift(image) is the unwrapped position. In a
+/// sheared box it is seen from the image in which the particle was then.
 template <int D>
 class PeriodicImages : public Observer<D> {
  public:
@@ -17,9 +18,11 @@ class PeriodicImages : public Observer<D> {
   void on_collision(const PairCollision<D>& collision) override;
   void on_wall(const WallCollision<D>& collision) override;
   void on_kick(const Kick<D>& kick) override;
+  void on_base_moved(double shift) override;
+  void before_laws(const Model<D>& next) override;
   void on_laws() override;
 
-  /// [N] images of the positions in Simulation::state(), at the simulation's time.
+  /// [N] images of the positions in Simulation::state(), for the offset of Simulation::domain().
   std::vector<IntVec<D>> images() const;
 
   /// Visits the members that a checkpoint keeps. The continued simulation must be at the same time.
@@ -31,9 +34,11 @@ class PeriodicImages : public Observer<D> {
  private:
   IntVec<D> image_in_flight(std::size_t particle) const;
   void move(const ParticleChange<D>& change);
+  void follow_offset(double before, double after);
 
   const Simulation<D>& simulation_;
   std::vector<IntVec<D>> of_flights_;  // [N] image of the box in which the current flight began
+  Domain<D> domain_;                   // at the base; before a change of laws: then
   Observation<D> observation_;
 };
 
