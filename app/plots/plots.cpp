@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::array<const char*, 3> kAxisNames = {"x", "y", "z"};
 
-// The theories of chapters 6 and 7 of docs/theory.md.
+// The theories of chapters 6, 7 and 14 of docs/theory.md.
 constexpr const char* kHaff = "Haff's law of a gas that stays homogeneous; clusters cool slower";
 constexpr const char* kAtmosphere =
     "The pressure carries the weight above, with the equation of state of the elastic gas";
@@ -31,6 +31,9 @@ constexpr const char* kSimple = "Theory that averages over all particles; dense 
 constexpr const char* kRefined =
     "Theory that averages over the particles that collide; neglects the dense layer at the walls";
 constexpr const char* kCorrected = "The refined theory with the dense layer at the walls";
+
+constexpr const char* kGrad = "Grad's theory of a dilute sheared gas";
+constexpr const char* kEnskog = "Enskog's theory of a dense gas of nearly elastic particles";
 
 template <class Value>
 Curve over_time(const std::string& name, Colour colour, const std::vector<Sample>& samples,
@@ -87,6 +90,10 @@ LivePlot temperature_plot(const std::vector<Sample>& samples, const Scene& scene
     plot.curves.push_back(level("refined", kRefined, kGreen, samples, gas->temperature_refined()));
     plot.curves.push_back(
         level("corrected", kCorrected, kPurple, samples, gas->temperature_corrected()));
+  }
+  if (const auto shear = steady_shear(scene)) {
+    plot.curves.push_back(level("Grad", kGrad, kGreen, samples, shear->grad.temperature));
+    plot.curves.push_back(level("Enskog", kEnskog, kRed, samples, shear->enskog_temperature));
   }
   return plot;
 }

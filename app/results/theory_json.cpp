@@ -181,19 +181,23 @@ double collision_rate(const Scene& scene, double temperature) {
   return gas.components.empty() ? 0.0 : sum / gas.count();
 }
 
-// The steady state of a sheared gas, of smooth particles.
-static void add_shear(Json& json, const Scene& scene) {
-  const double phi = scene.packing_fraction(), alpha = scene.particles.restitution;
-  const double rate = *scene.shear_rate;
-  const int dimension = scene.dimension();
-  if (scene.spins() || scene.bulk_drive || !(alpha > 0.0 && alpha < 1.0) || rate == 0.0) return;
-  const ShearTheory grad = grad_shear(phi, alpha, rate, dimension);
-  const double dense = enskog_shear_temperature(phi, alpha, rate, dimension);
-  const double pressure = phi / packing_fraction(dimension, 1.0) * grad.temperature;
+std::optional<SteadyShear> steady_shear(const Scene& scene) {
+  const double alpha = scene.particles.restitution, rate = scene.shear_rate.value_or(0.0);
+  if (rate == 0.0 || !scene.species.empty() || scene.particles.count < 2) return std::nullopt;
+  if (scene.spins() || scene.bulk_drive || !(alpha > 0.0 && alpha < 1.0)) return std::nullopt;
+  const double phi = scene.packing_fraction();
+  return SteadyShear{grad_shear(phi, alpha, rate, scene.dimension()),
+                     enskog_shear_temperature(phi, alpha, rate, scene.dimension())};
+}
+
+static void add_shear(Json& json, const Scene& scene, const SteadyShear& shear) {
+  const double phi = scene.packing_fraction(), rate = *scene.shear_rate;
+  const auto& [grad, dense] = shear;
+  const double pressure = phi / packing_fraction(scene.dimension(), 1.0) * grad.temperature;
   json["temperature_grad"] = grad.temperature;
   json["temperature_enskog"] = dense;
   json["viscosity_grad"] = -grad.stress_yx * pressure / rate;
-  json["viscosity_enskog"] = enskog_viscosity(phi, dense, dimension);
+  json["viscosity_enskog"] = enskog_viscosity(phi, dense, scene.dimension());
   json["stress_xx_grad"] = -grad.stress_xx * pressure;
   json["stress_yy_grad"] = -grad.stress_yy * pressure;
   json["stress_yx_grad"] = -grad.stress_yx * pressure;
@@ -206,7 +210,7 @@ Json theory_json(const Scene& scene) {
     add_vibrated(json, *gas, scene.particles.start.temperature);
   }
   if (is_homogeneous_gas(scene)) add_homogeneous(json, scene);
-  if (scene.shear_rate && scene.particles.count > 1) add_shear(json, scene);
+  if (const auto shear = steady_shear(scene)) add_shear(json, scene, *shear);
   if (const auto gas = two_compartments(scene)) json["imbalance"] = 2.0 * gas->fuller_share() - 1.0;
   return json;
 }

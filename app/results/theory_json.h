@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "engine/physics/atmosphere.h"
+#include "engine/physics/shear_theory.h"
 #include "engine/physics/theory.h"
 #include "engine/physics/two_compartments.h"
 #include "engine/scene/scene.h"
@@ -30,6 +31,16 @@ bool cools_freely(const Scene& scene);
 /// k of Haff's law in a periodic box (theory 6.6). Absent unless the scene has smooth particles
 /// that cool without any force.
 std::optional<double> haff_rate(const Scene& scene);
+
+/// Theories of a steady sheared gas (theory 14.5-14.7).
+struct SteadyShear {
+  ShearTheory grad;                 ///< of a dilute gas
+  double enskog_temperature = 0.0;  ///< of a dense gas of nearly elastic particles
+};
+
+/// The theories of a sheared box. Absent unless the scene has smooth, inelastic particles that are
+/// alike, and no other drive.
+std::optional<SteadyShear> steady_shear(const Scene& scene);
 
 /// Enskog's collisions per particle and time (theory 6.2, 12.10), at the same temperature of all
 /// species of a mixture.

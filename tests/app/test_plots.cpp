@@ -165,6 +165,22 @@ TEST_CASE("Plots: a gas that cools has Haff's law on logarithmic axes") {
   CHECK_FALSE(frames.plot("Temperature").log_x);
 }
 
+// By hand for 3000 disks in 160 x 120, alpha = 0.4, G = 0.1 and chi = 1.22958: b = 0.595, z = 0.42,
+// G/nu = 0.85277 and nu = 0.68105 sqrt(T), so Grad's T is 0.02965.
+TEST_CASE("Plots: a sheared gas has the theories of its steady temperature") {
+  TwoFrames frames;
+  *frames.scene = load_scene("shear");
+  const LivePlot plot = frames.plot("Temperature");
+  check_axes(plot, "time t", "m a²/t²", false, false);
+  const Curve& grad = curve_of(plot, "Grad");
+  CHECK(grad.dashed);
+  CHECK(grad.points.front().y() == doctest::Approx(0.02965).epsilon(1e-3));
+  CHECK(grad.points.back().y() == grad.points.front().y());
+  CHECK(curve_of(plot, "Enskog").dashed);
+  frames.scene->particles.restitution = 1.0;
+  CHECK(frames.plot("Temperature").curves.size() == plot.curves.size() - 2);
+}
+
 TEST_CASE("Plots: balance residuals stand under their equation's name, in magnitude") {
   TwoFrames frames;
   frames.end.residuals = ResidualProfile{
