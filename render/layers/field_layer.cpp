@@ -85,7 +85,7 @@ void FieldLayer::draw(const Snapshot& snapshot, const Projection& projection,
       program.uniform("u_period"),
       projection.samples * std::max(5.0, std::round(std::min(size.width, size.height) / 90.0)));
   gl_->BindVertexArray(vertices_.id());
-  const auto draw_copy = [&](int x, int y, float opacity) {
+  const auto draw_copy = [&](double x, int y, float opacity) {
     const Vec2 low = projection.pixels(snapshot.box.cwiseProduct(Vec2(x, y)));
     const Vec2 high = projection.pixels(snapshot.box.cwiseProduct(Vec2(x + 1, y + 1)));
     gl_->Uniform2f(program.uniform("u_low"), low.x(), low.y());
@@ -96,8 +96,11 @@ void FieldLayer::draw(const Snapshot& snapshot, const Projection& projection,
   draw_copy(0, 0, 1.0f);
   gl_->Enable(GL_BLEND);  // opaque colours of the box need none, see FieldTexture
   for (int y = tiling.first[1]; y <= tiling.last[1]; ++y) {
-    for (int x = tiling.first[0]; x <= tiling.last[0]; ++x) {
-      if (x != 0 || y != 0) draw_copy(x, y, tiling.faintness);
+    // Copies above and below in a sheared box have slid.
+    const double lengths = y * snapshot.offset / snapshot.box[0];
+    const double slid = lengths - std::floor(lengths);
+    for (int x = tiling.first[0] - (slid > 0.0 ? 1 : 0); x <= tiling.last[0]; ++x) {
+      if (x != 0 || y != 0) draw_copy(x + slid, y, tiling.faintness);
     }
   }
   texture_.unbind();
