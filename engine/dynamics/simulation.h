@@ -154,7 +154,7 @@ class Simulation {
   /// The same at a time on the base.
   Domain<D> domain_at(double time) const { return boundary_.domain().at(time); }
   /// The velocity of a flight at a time on the base, in a sheared box without that of the flow.
-  Vec<D> peculiar_at(const Flight<D>& flight, double time) const {
+  [[gnu::always_inline]] Vec<D> peculiar_at(const Flight<D>& flight, double time) const {
     const Vec<D> velocity = flight.velocity_at(time, model_.gravity);
     if (!model_.shear_rate) return velocity;
     return boundary_.domain().peculiar(flight.at(time, model_.gravity), velocity);

@@ -12,7 +12,7 @@ Totals<D>::Totals(const Simulation<D>& simulation)
       integrated_to_(simulation.base_time()),
       window_start_(integrated_to_) {
   fit_window();
-  take_stock();
+  take_stock([](const Vec<D>&) {});
 }
 
 // A window has sums of sliding walls and of shear only if the scene has them.
@@ -45,8 +45,11 @@ void Totals<D>::change_inertia(double before, double after) {
   spin_squares_ += gained;
 }
 
+// Sums over the particles at this time, which removes the accumulated rounding. Calls
+// visit(squares) with m v_k^2 of each.
 template <int D>
-void Totals<D>::take_stock() {
+template <class Visit>
+void Totals<D>::take_stock(const Visit& visit) {
   mass_ = simulation_.mass();
   squares_.setZero();
   momentum_.setZero();
@@ -55,7 +58,9 @@ void Totals<D>::take_stock() {
   simulation_.for_masses([&](const Flight<D>& flight, auto mass) {
     const double m = mass;
     const Vec<D> v = simulation_.peculiar_at(flight, integrated_to_);
-    squares_ += m * v.cwiseAbs2();
+    const Vec<D> squares = m * v.cwiseAbs2();
+    visit(squares);
+    squares_ += squares;
     momentum_ += m * v;
     cross_ += m * v[0] * v[1];
   });
@@ -209,9 +214,7 @@ WindowTotals<D> Totals<D>::close_window() {
   integrate_to(now);
   const double count = static_cast<double>(simulation_.particles().size());
   window_.duration = now - window_start_;
-  simulation_.for_masses([&](const Flight<D>& flight, auto mass) {
-    const double m = mass;
-    const Vec<D> squares = m * simulation_.peculiar_at(flight, now).cwiseAbs2();
+  take_stock([&](const Vec<D>& squares) {
     window_.second_moment += squares / count;
     window_.fourth_moment += squares.cwiseAbs2() / count;
   });
@@ -229,7 +232,6 @@ WindowTotals<D> Totals<D>::close_window() {
   integral_.setZero();
   cross_integral_ = 0.0;
   spin_integral_ = 0.0;
-  take_stock();  // removes the accumulated rounding
   window_start_ = now;
   return closed;
 }

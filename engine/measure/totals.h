@@ -81,7 +81,8 @@ class Totals : public Observer<D> {
   double rate() const { return simulation_.model().shear_rate.value_or(0.0); }
   void integrate_to(double time);
   double energy_of_starts() const;
-  void take_stock();
+  template <class Visit>
+  void take_stock(const Visit& visit);
   void end_flights();
   void change_inertia(double before, double after);
   void book(double gained);
