@@ -364,6 +364,14 @@ void Prediction<D>::plan_baseline(const Prediction& prediction,
   prediction.make_plans<kFalling, kMixed, kPlain>(requests, now);
 }
 
+template <int D>
+void Prediction<D>::plan_each(const Prediction& prediction, const Requests<2>& requests,
+                              double now) {
+  for (const Request& request : requests) {
+    prediction.planners_.any_one(prediction, {request}, now);
+  }
+}
+
 #if defined(__x86_64__)
 template <int D>
 template <bool kFalling, bool kMixed, bool kPlain, std::size_t kParticles>
@@ -383,7 +391,7 @@ typename Prediction<D>::Planners Prediction<D>::widest_planners() {
   }
 #endif
   return {plan_baseline<kFalling, kMixed, true, 1>, plan_baseline<kFalling, kMixed, true, 2>,
-          plan_baseline<kFalling, kMixed, false, 1>, plan_baseline<kFalling, kMixed, false, 2>};
+          plan_baseline<kFalling, kMixed, false, 1>, plan_each};
 }
 
 template class Prediction<2>;

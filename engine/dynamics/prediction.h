@@ -89,6 +89,8 @@ class Prediction {
   // change Eigen's layouts.
   template <bool kFalling, bool kMixed, bool kPlain, std::size_t kParticles>
   static void plan_baseline(const Prediction&, const Requests<kParticles>&, double now);
+  // As any_one for each. It has little code, which keeps the page small.
+  static void plan_each(const Prediction&, const Requests<2>&, double now);
 #if defined(__x86_64__)
   template <bool kFalling, bool kMixed, bool kPlain, std::size_t kParticles>
   [[gnu::target("avx2")]] static void plan_avx2(const Prediction&, const Requests<kParticles>&,
