@@ -74,6 +74,7 @@ class CsvFrames {
   ParticleTable::Row next_row(ParticleFrame& frame) const {
     const LineWords words = cells();
     ParticleTable::Row row = table_.row(lines_, words);
+    if (row[kTilt] != 0.0) refuse_tilt(path_, lines_.number());
     if (!species_) return row;
     row[kType] = type_of_name(frame.names, words[*species_]);
     if (frame.names.size() > kMaxSpecies) {
@@ -114,6 +115,7 @@ class CsvFrames {
                                                              {"diameter", kDiameter},
                                                              {"mass", kMass},
                                                              {"species", kName},
+                                                             {"tilt", kTilt},
                                                              {"time", kTime},
                                                              {"particle", kId}};
     const LineWords names = cells();

@@ -26,6 +26,7 @@ enum ParticleQuantity {
   kType,  ///< a whole number
   kId,
   kTime,
+  kTilt,     ///< of the cell of the frame
   kIgnored,  ///< any word
   kWhole,    ///< a whole number that no quantity follows from
   kReal,     ///< a number that no quantity follows from

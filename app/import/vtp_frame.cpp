@@ -202,6 +202,7 @@ class VtpFrame {
   void read_box(ParticleFrame& frame) const {
     const auto lengths = field({"box"}, 3);
     if (!lengths) return;
+    if (const auto tilt = field({"tilt"}, 1); tilt && tilt->front() != 0.0) refuse_tilt(path_);
     frame.box.emplace();
     const std::vector<double> periodic =
         field({"periodic"}, 3).value_or(std::vector<double>(3, 1.0));

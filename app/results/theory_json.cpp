@@ -183,7 +183,10 @@ double collision_rate(const Scene& scene, double temperature) {
 
 std::optional<SteadyShear> steady_shear(const Scene& scene) {
   const double alpha = scene.particles.restitution, rate = scene.shear_rate.value_or(0.0);
-  if (rate == 0.0 || !scene.species.empty() || scene.particles.count < 2) return std::nullopt;
+  const bool walled =
+      std::ranges::any_of(scene.walls, [](const auto& wall) { return wall.has_value(); });
+  if (rate == 0.0 || walled || !scene.species.empty() || scene.particles.count < 2)
+    return std::nullopt;
   if (scene.spins() || scene.bulk_drive || !(alpha > 0.0 && alpha < 1.0)) return std::nullopt;
   const double phi = scene.packing_fraction();
   return SteadyShear{grad_shear(phi, alpha, rate, scene.dimension()),

@@ -38,8 +38,8 @@ struct SteadyShear {
   double enskog_temperature = 0.0;  ///< of a dense gas of nearly elastic particles
 };
 
-/// The theories of a sheared box. Absent unless the scene has smooth, inelastic particles that are
-/// alike, and no other drive.
+/// The theories of a sheared box without walls. Absent unless the scene has smooth, inelastic
+/// particles that are alike, and no other drive.
 std::optional<SteadyShear> steady_shear(const Scene& scene);
 
 /// Enskog's collisions per particle and time (theory 6.2, 12.10), at the same temperature of all

@@ -20,12 +20,13 @@ struct SavedTrajectory {
   std::uint64_t bytes = 0;
   std::uint8_t format = 0;  // TrajectoryFormat
   bool spins = false;
+  bool sheared = false;
 };
 
 template <class Archive>
 void visit(Archive& io, SavedTrajectory& saved) {
-  auto& [every, next, bytes, format, spins] = saved;
-  io(every, next, bytes, format, spins);
+  auto& [every, next, bytes, format, spins, sheared] = saved;
+  io(every, next, bytes, format, spins, sheared);
 }
 
 // Moves the particles of a sheared box into the cell whose edge along y leads to the next image
@@ -92,6 +93,12 @@ TrajectoryRecorder<D>::TrajectoryRecorder(const std::filesystem::path& path, dou
                                  : "the trajectory of the checkpoint has no angular velocities",
                     "resume the run without changes of roughness, or without --trajectory");
   }
+  if (before.sheared != particles_.sheared) {
+    throw UserError({"--trajectory", 0, 0},
+                    before.sheared ? "the trajectory of the checkpoint has a tilted cell"
+                                   : "the trajectory of the checkpoint has no tilted cell",
+                    "resume the run without a change of [shear], or without --trajectory");
+  }
   reader.require(!simulation.is_overdue(0.0, every, before.next));
   next_ = before.next;
   open(simulation, before.bytes);
@@ -132,8 +139,9 @@ void TrajectoryRecorder<D>::add(const Simulation<D>& simulation) {
 template <int D>
 std::string TrajectoryRecorder<D>::save() {
   file_->sync();
-  SavedTrajectory saved{every_, next_, file_->bytes(), static_cast<std::uint8_t>(format_),
-                        particles_.spins};
+  SavedTrajectory saved{every_,           next_,
+                        file_->bytes(),   static_cast<std::uint8_t>(format_),
+                        particles_.spins, particles_.sheared};
   ArchiveWriter writer;
   writer(saved, *images_);
   return writer.written();

@@ -133,12 +133,16 @@ void PlotsPanel::draw(const ThemeColours& theme) {
                        static_cast<int>(session_.opened().measure.profile_axis))) {
     profile_axis_ = axis;
   }
+  std::vector<std::string> profiles = profile_names(profile_axis());
+  // The balances of cells do not include the shear.
+  if (session_.scene().shear_rate) profiles.pop_back();
+  profiled_ = std::min(profiled_, static_cast<int>(profiles.size()) - 1);
   controls_.choice(
       "plots.profile", "Profile of",
       "Averages with a band of one standard error, or the relative residuals of the balances of "
       "mass, momentum and energy in the worst window. They start when the plots open, or when "
       "laws, averages or trails change. The engine then does about twice the work",
-      profile_names(profile_axis()), profiled_, 0);
+      profiles, profiled_, 0);
   observable_plots(theme, height);
   const std::vector<PlottedGas> compared = gases();
   if (compared.size() > 1) {

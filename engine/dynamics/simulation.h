@@ -159,6 +159,11 @@ class Simulation {
     if (!model_.shear_rate) return velocity;
     return boundary_.domain().peculiar(flight.at(time, model_.gravity), velocity);
   }
+  /// The acceleration of this velocity: gravity, or -G v_y along x (theory 14.1).
+  Vec<D> peculiar_acceleration(const Flight<D>& flight) const {
+    if (!model_.shear_rate) return model_.gravity;
+    return -*model_.shear_rate * flight.v[1] * Vec<D>::Unit(0);
+  }
   /// Displacement, velocity and acceleration of a wall at time(), from its rest position along its
   /// inward normal.
   WallState wall(int side) const { return boundary_.wall(side, base_time()); }

@@ -143,13 +143,12 @@ void CellIntegrals<D>::add_flight(const Grain& grain, const Flight<D>& flight, c
   const double begin = std::max(flight.time, window_start_);
   const double spent = end - begin;
   if (!(spent > 0.0)) return;
-  if (simulation_.model().has_gravity()) return add_fall(grain, flight, spin, begin, end, gravity);
-  if (const auto rate = simulation_.model().shear_rate) {
+  if (simulation_.model().has_gravity()) return add_fall(grain, flight, spin, begin, end);
+  if (simulation_.model().shear_rate) {
     // Seen from its image, a flight is straight, and its velocity without the flow changes.
-    const Vec<D> acceleration = -*rate * flight.v[1] * Vec<D>::Unit(0);
     return cut_at_images(simulation_.domain_at(0.0), flight, begin, end,
                          [&](const Flight<D>& seen, double from, double to) {
-                           add_fall(grain, seen, spin, from, to, acceleration);
+                           add_fall(grain, seen, spin, from, to);
                          });
   }
   const Rates rates = rates_of(grain, flight.v, Vec<D>::Zero(), spin);
@@ -161,8 +160,9 @@ void CellIntegrals<D>::add_flight(const Grain& grain, const Flight<D>& flight, c
 // Adds a flight on which the velocity without the flow has an acceleration.
 template <int D>
 void CellIntegrals<D>::add_fall(const Grain& grain, const Flight<D>& flight, const Spin<D>& spin,
-                                double begin, double end, const Vec<D>& acceleration) {
+                                double begin, double end) {
   const Vec<D>& gravity = simulation_.model().gravity;
+  const Vec<D> acceleration = simulation_.peculiar_acceleration(flight);
   auto cell = grid_.cell_at(flight.at(begin, gravity));
   grid_.walk(
       flight, gravity, cell, begin, end,

@@ -100,7 +100,7 @@ class CellIntegrals : public Observer<D> {
                  const Spin<D>& spin) const;
   void add_flight(const Grain& grain, const Flight<D>& flight, const Spin<D>& spin, double end);
   void add_fall(const Grain& grain, const Flight<D>& flight, const Spin<D>& spin, double begin,
-                double end, const Vec<D>& acceleration);
+                double end);
   void end_flight(const ParticleChange<D>& particle, double time);
   void add_transfer(const Vec<D>& from, const Vec<D>& branch, const Vec<D>& momentum,
                     double energy);

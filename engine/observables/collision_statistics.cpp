@@ -44,7 +44,8 @@ double dissipated(const PairCollision<D>& collision) {
   constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
   const auto& [first, second] = collision.particles;
   const double loss = -collision.energy();
-  const double energy = energy_before(first) + energy_before(second);
+  const double of_flow = collision.shear_rate * collision.separation[1] * first.gain.momentum[0];
+  const double energy = energy_before(first) + energy_before(second) + std::fabs(of_flow);
   return collision.elasticised || loss < kRounding * energy ? 0.0 : loss;
 }
 

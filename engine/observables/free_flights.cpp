@@ -84,12 +84,8 @@ template <int D>
 double& FreeFlights<D>::extend(const ParticleChange<D>& change, double time) {
   Path& path = paths_[change.particle];
   const Flight<D>& flight = change.before;
-  const Model<D>& model = simulation_.model();
-  // Without the flow of a sheared box, the velocity changes along x.
-  const Vec<D> acceleration =
-      model.shear_rate ? Vec<D>(-*model.shear_rate * flight.v[1] * Vec<D>::Unit(0)) : model.gravity;
-  path.length +=
-      arc_length<D>(simulation_.peculiar_at(flight, flight.time), acceleration, time - flight.time);
+  path.length += arc_length<D>(simulation_.peculiar_at(flight, flight.time),
+                               simulation_.peculiar_acceleration(flight), time - flight.time);
   return path.length;
 }
 

@@ -4,7 +4,13 @@
 #include <limits>
 #include <numeric>
 
+#include "engine/scene/enum_names.h"
+
 namespace clatter {
+
+std::string axis_name(std::size_t axis) {
+  return std::string(kAxes[axis].name);
+}
 
 ObservableSums& ObservableSums::operator+=(const ObservableSums& other) {
   for (std::size_t k = 0; k < values.size(); ++k) values[k] += other.values[k];

@@ -11,6 +11,9 @@
 
 namespace clatter {
 
+/// Name of an axis in columns and means: "x", "y" or "z".
+std::string axis_name(std::size_t axis);
+
 /// A column of a table of results.
 struct TableColumn {
   std::string name;

@@ -28,7 +28,9 @@ class PeriodicImages : public Observer<D> {
   /// Visits the members that a checkpoint keeps. The continued simulation must be at the same time.
   template <class Archive>
   void visit(Archive& io) {
-    io(of_flights_);
+    double offset = simulation_.domain().offset;
+    io(of_flights_, offset);
+    follow_offset(offset, simulation_.domain().offset);
   }
 
  private:

@@ -3,8 +3,6 @@
 #include <limits>
 #include <string>
 
-#include "engine/scene/enum_names.h"
-
 namespace clatter {
 
 namespace {
@@ -90,7 +88,7 @@ void Probe<D>::sample() {
 }
 
 static std::string velocity_name(std::size_t axis) {
-  return std::string("velocity_") + std::string(kAxes[axis].name);
+  return "velocity_" + axis_name(axis);
 }
 
 // A row is the average over its samples. Without two particles it has no temperature.

@@ -3,17 +3,8 @@
 #include <string>
 
 #include "engine/observables/lag_table.h"
-#include "engine/scene/enum_names.h"
 
 namespace clatter {
-
-namespace {
-
-std::string axis_name(int axis) {
-  return std::string(kAxes[static_cast<std::size_t>(axis)].name);
-}
-
-}  // namespace
 
 template <int D>
 void MeanSquaredDisplacement<D>::start() {
@@ -72,14 +63,13 @@ ObservableResult MeanSquaredDisplacement<D>::result(const ObservableParts& parts
     const std::size_t drift = 1 + 2 * D * group, squares = drift + D;
     const std::string of = groups_.suffix(group);
     // Along x the flow carries the particles of a sheared box.
-    const int first = simulation_.model().shear_rate ? 1 : 0;
-    if (first == 0) table.add("total" + of, "a^2", squares, D, 1.0);
-    for (int axis = first; axis < D; ++axis) {
-      table.add(axis_name(axis) + of, "a^2", squares + static_cast<std::size_t>(axis), 1, 1.0);
+    const std::size_t first = simulation_.model().shear_rate ? 1 : 0;
+    table.add("total" + of, "a^2", squares + first, D - first, 1.0);
+    for (std::size_t axis = first; axis < D; ++axis) {
+      table.add(axis_name(axis) + of, "a^2", squares + axis, 1, 1.0);
     }
-    for (int axis = first; axis < D; ++axis) {
-      table.add("drift_" + axis_name(axis) + of, "a", drift + static_cast<std::size_t>(axis), 1,
-                1.0);
+    for (std::size_t axis = first; axis < D; ++axis) {
+      table.add("drift_" + axis_name(axis) + of, "a", drift + axis, 1, 1.0);
     }
   }
   return {{std::move(table).table()}, {}};
@@ -129,8 +119,8 @@ ObservableResult VelocityAutocorrelation<D>::result(const ObservableParts& parts
     const std::size_t first = 1 + D * group;
     const std::string of = groups_.suffix(group);
     table.add("mean" + of, "a^2/t^2", first, D, 1.0 / D);
-    for (int axis = 0; axis < D; ++axis) {
-      table.add(axis_name(axis) + of, "a^2/t^2", first + static_cast<std::size_t>(axis), 1, 1.0);
+    for (std::size_t axis = 0; axis < D; ++axis) {
+      table.add(axis_name(axis) + of, "a^2/t^2", first + axis, 1, 1.0);
     }
   }
   return {{std::move(table).table()}, {}};

@@ -6,7 +6,6 @@
 
 #include "engine/observables/bins.h"
 #include "engine/observables/histogram.h"
-#include "engine/scene/enum_names.h"
 
 namespace clatter {
 
@@ -183,10 +182,6 @@ void VelocityDistribution<D>::sample() {
     moments[2] += factors.fourth * fourth[static_cast<int>(axis)];
   }
   sums[Sums::kCount] += count;
-}
-
-static std::string axis_name(std::size_t axis) {
-  return std::string(kAxes[axis].name);
 }
 
 // Numbers of the species that have particles.

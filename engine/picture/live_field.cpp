@@ -60,10 +60,10 @@ std::optional<typename LiveField<D>::Closure> LiveField<D>::closure_for(
 
 template <int D>
 LiveField<D>::LiveField(Simulation<D>& simulation, const View& view)
-    : field_(view.field),
+    : simulation_(simulation),
+      field_(view.field),
       species_(species_of(simulation, view)),
       arrows_(view.arrows),
-      domain_(simulation.model().domain()),
       averages_(averages_for(simulation, view)),
       closure_(closure_for(simulation, view)),
       start_(simulation.time() + view.window / kWindowParts),
@@ -74,10 +74,10 @@ LiveField<D>::LiveField(Simulation<D>& simulation, const View& view)
 
 template <int D>
 LiveField<D>::LiveField(Simulation<D>& simulation, const View& view, LiveField&& before)
-    : field_(view.field),
+    : simulation_(simulation),
+      field_(view.field),
       species_(species_of(simulation, view)),
       arrows_(view.arrows),
-      domain_(simulation.model().domain()),
       averages_(averages_for(simulation, view)),
       closure_(closure_for(simulation, view)),
       start_(before.start_),
@@ -96,10 +96,10 @@ LiveField<D>::LiveField(Simulation<D>& simulation, const View& view, LiveField&&
 
 template <int D>
 LiveField<D>::LiveField(Simulation<D>& simulation, const View& view, ArchiveReader saved)
-    : field_(view.field),
+    : simulation_(simulation),
+      field_(view.field),
       species_(species_of(simulation, view)),
       arrows_(view.arrows),
-      domain_(simulation.model().domain()),
       averages_(averages_for(simulation, view)),
       closure_(closure_for(simulation, view)),
       timers_(simulation) {
@@ -120,8 +120,8 @@ std::string LiveField<D>::save() {
 template <int D>
 template <class Archive>
 void LiveField<D>::visit(Archive& io) {
-  auto& [field, species, arrows, domain, averages, closure, start, closed, sampled_from, samples,
-         of_averages, of_closure, timers] = *this;
+  auto& [simulation, field, species, arrows, averages, closure, start, closed, sampled_from,
+         samples, of_averages, of_closure, timers] = *this;
   if (averages) io(averages->observer, averages->sums);
   if (closure) io(closure->observer, closure->sums);
   io(start, closed, sampled_from, samples);
@@ -223,7 +223,8 @@ void LiveField<D>::publish(Snapshot& snapshot) {
     snapshot.field->species = species_;
     snapshot.field->whole_window = averages_->sums.whole();
   }
-  if (arrows_) snapshot.arrows = arrow_map(*arrows_, sums, grid, layout, domain_);
+  if (arrows_)
+    snapshot.arrows = arrow_map(*arrows_, sums, grid, layout, simulation_.model().domain());
 }
 
 template class LiveField<2>;

@@ -60,10 +60,10 @@ class LiveField {
   bool samples(const View& view) const;
   void watch(Simulation<D>& simulation, const View& view);
 
+  const Simulation<D>& simulation_;
   std::optional<Field> field_;
   std::string species_;  // name of the field's species
   std::optional<Quantity> arrows_;
-  Domain<D> domain_;                  // of the simulation, whose flow the arrows show
   std::optional<Averages> averages_;  // present with arrows, or if the field is an average
   std::optional<Closure> closure_;    // present if the field is a residual
   double start_;                      // simulation time at which the first part closes

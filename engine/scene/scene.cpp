@@ -14,6 +14,7 @@ double Scene::packing_fraction() const {
 }
 
 View Scene::adapted(View of_other, const std::vector<Species>& others) const {
+  if (shear_rate && of_other.field && is_residual(*of_other.field)) of_other.field.reset();
   if (!of_other.field || of_other.field->species == Field::kNone) return of_other;
   const auto number = static_cast<std::size_t>(of_other.field->species);
   const auto own =

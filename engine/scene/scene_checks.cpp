@@ -404,8 +404,7 @@ static void check_plots(const Scene& scene, const toml::table& root, const std::
                   "remove some of view.plots");
 }
 
-/// Throws if a sheared box has something that its sliding images cannot have, or a measurement that
-/// does not know the flow.
+/// Throws if a sheared box has something, or a measurement, that sliding images cannot have.
 static void check_shear(const Scene& scene, const toml::table& root, const std::string& file) {
   if (!scene.shear_rate) return;
   const auto refuse = [&](const std::string& key, const std::string& problem,
@@ -446,7 +445,8 @@ static void check_shear(const Scene& scene, const toml::table& root, const std::
   const bool drawn = view.field && is_residual(*view.field);
   if (drawn || std::ranges::any_of(measure.fields, is_residual)) {
     refuse(drawn ? "view.field" : "measure.fields",
-           "the balance equations of a cell do not include the shear", "remove the residuals");
+           "the balances of cells do not include the shear",
+           drawn ? "choose an average" : "remove \"balance\"");
   }
   if (measure.kernel == Kernel::Gaussian) {
     refuse("measure.kernel", "a Gaussian does not reach across the sheared border",
@@ -458,7 +458,7 @@ static void check_shear(const Scene& scene, const toml::table& root, const std::
   }
   if (measure.observes(ObservableKind::PlaneCurrent) && measure.plane_current.axis == Axis::X) {
     refuse("measure.observables", "the flow of a sheared box crosses a plane across x",
-           "set measure.plane_current.axis to \"y\" or \"z\", or remove \"plane_current\"");
+           "set measure.plane_current.axis to \"y\", or remove \"plane_current\"");
   }
 }
 

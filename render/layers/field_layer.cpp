@@ -57,10 +57,15 @@ FieldLayer::FieldLayer(const Gl& gl)
       vertices_(generate<VertexArray>(gl, gl.GenVertexArrays)),
       texture_(gl) {}
 
+// Whether cells at both ends of an axis are neighbours. At the sheared border others are.
+static bool wraps(const Snapshot& snapshot, int axis) {
+  const bool slides = axis == 1 && (snapshot.slide != 0.0 || snapshot.offset != 0.0);
+  return !snapshot.walls[2 * axis] && !slides;
+}
+
 PlaneMap plane_of(const Snapshot& snapshot) {
   const FieldMap& map = *snapshot.field;
-  return {
-      map.cells[0], map.cells[1], {!snapshot.walls[kLeft], !snapshot.walls[kBottom]}, map.values};
+  return {map.cells[0], map.cells[1], {wraps(snapshot, 0), wraps(snapshot, 1)}, map.values};
 }
 
 FieldStyle style_of(Field field, const View& view) {
@@ -121,9 +126,8 @@ static PlaneMap layer_of(const Snapshot& snapshot, int axis, int layer) {
   const std::array<std::size_t, 3> strides = {
       1, static_cast<std::size_t>(map.cells[0]),
       static_cast<std::size_t>(map.cells[0]) * static_cast<std::size_t>(map.cells[1])};
-  PlaneMap plane{map.cells[first],
-                 map.cells[second],
-                 {!snapshot.walls[2 * first], !snapshot.walls[2 * second]}};
+  PlaneMap plane{
+      map.cells[first], map.cells[second], {wraps(snapshot, first), wraps(snapshot, second)}};
   for (int j = 0; j < map.cells[second]; ++j) {
     for (int i = 0; i < map.cells[first]; ++i) {
       plane.values.push_back(

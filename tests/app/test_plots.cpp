@@ -179,6 +179,12 @@ TEST_CASE("Plots: a sheared gas has the theories of its steady temperature") {
   CHECK(curve_of(plot, "Enskog").dashed);
   frames.scene->particles.restitution = 1.0;
   CHECK(frames.plot("Temperature").curves.size() == plot.curves.size() - 2);
+  // Walls across z take part in the balance.
+  *frames.scene = parse_scene(
+      "box.size = [9, 9, 9]\nparticles = { count = 9, restitution = 0.9 }\nshear.rate = 1\n", "s");
+  CHECK(steady_shear(*frames.scene).has_value());
+  frames.scene->walls[kFront] = frames.scene->walls[kBack] = Wall{};
+  CHECK_FALSE(steady_shear(*frames.scene).has_value());
 }
 
 TEST_CASE("Plots: balance residuals stand under their equation's name, in magnitude") {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/app/readers.h"
+#include "tests/support/messages.h"
 #include "tests/support/shell.h"
 
 namespace clatter::shear_files {
@@ -72,6 +73,26 @@ TEST_CASE("Shear files: readers have the tilted cell, and unwrapped positions mo
       }
     }
   }
+}
+
+TEST_CASE("Shear files: what a tilted cell does not fit refuses it") {
+  const Shell shell;
+  shell.write("s.toml", kScene);
+  for (const std::string format : {"xyz", "lammpstrj", "csv", "gsd", "h5md", "vtp"}) {
+    CAPTURE(format);
+    measure(shell, "t." + format, "--until 1");
+    const std::string file =
+        format == "vtp" ? "t_000002.vtp start.csv" : "t." + format + " start.csv --frame 2";
+    const Outcome outcome = shell.run("clatter convert " + file);
+    CHECK(outcome.code == 2);
+    CHECK(says(outcome.err, "the box is tilted"));
+  }
+  shell.write("plain.toml", std::string(kScene).replace(std::string(kScene).find("shear"), 16, ""));
+  const std::string run = "clatter measure plain.toml --quiet --out r.json --every 0.5 ";
+  REQUIRE(shell.run(run + "--trajectory p.csv --until 2 --checkpoint c").code == 0);
+  const Outcome outcome = shell.run(run + "--trajectory p.csv --resume c --set shear.rate=0.1");
+  CHECK(outcome.code == 2);
+  CHECK(says(outcome.err, "has no tilted cell"));
 }
 
 TEST_CASE("Shear files: an interrupted run continues them to the byte") {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "render/drawn_region.h"
+#include "render/layers/field_layer.h"
 #include "render/layers/renderer.h"
 #include "tests/render/optional_context.h"
 #include "tests/render/picture.h"
@@ -81,6 +82,15 @@ void check_heatmap(Backend backend) {
 }
 
 }  // namespace
+
+// Smoothing over the border would mix cells that are not neighbours.
+TEST_CASE("Shear pictures: the ends of a heatmap along y are no neighbours") {
+  Snapshot snapshot = one_disk();
+  snapshot.field = FieldMap{Quantity::Density, {2, 2}, {0.0, 0.0, 1.0, 0.0}};
+  CHECK(plane_of(snapshot).periodic == std::array{true, false});
+  snapshot.slide = snapshot.offset = 0.0;
+  CHECK(plane_of(snapshot).periodic == std::array{true, true});
+}
 
 TEST_CASE("Shear pictures: OSMesa draws images below where they have slid to") {
   if (!open_or_skip(Backend::Osmesa)) return;

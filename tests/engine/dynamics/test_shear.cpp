@@ -284,6 +284,16 @@ TEST_CASE("Sheared boxes: a scene starts with the flow, and keeps its rate when 
 }
 
 // All images of 60 points within a distance, against those that a search finds.
+TEST_CASE("Sheared boxes: the view of another gas loses its balances") {
+  const Scene scene =
+      parse_scene("box.size = [9, 9]\nparticles.count = 9\nshear.rate = 1\n", "s.toml");
+  View view;
+  view.field = Quantity::BalanceEnergy;
+  CHECK_FALSE(scene.adapted(view, {}).field.has_value());
+  view.field = Quantity::Density;
+  CHECK(scene.adapted(view, {}).field == Field(Quantity::Density));
+}
+
 TEST_CASE_TEMPLATE("Sheared boxes: a search finds all images near a point", Dimension, Plane,
                    Space) {
   constexpr int D = Dimension::value;

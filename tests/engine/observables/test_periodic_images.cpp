@@ -90,6 +90,19 @@ TEST_CASE_TEMPLATE("Periodic images: the unwrapped centre of a sheared gas moves
   simulation->run_until(60.0);
   CHECK((centre(*simulation, images) - before - 20.0 * changed).norm() < 1e-8);
   CHECK(simulation->counts().pair_collisions > 200);
+
+  // A run that is resumed under another rate has its particles where they were.
+  const Vec<D> end = centre(*simulation, images);
+  ArchiveWriter writer;
+  writer(images);
+  for (const double rate : {0.0, 2.0, -5.0}) {
+    scene.shear_rate = rate;
+    Simulation<D> resumed(model_of<D>(scene, 5), simulation->save());
+    PeriodicImages<D> read(resumed);
+    ArchiveReader reader(writer.written(), "");
+    reader(read);
+    CHECK((centre(resumed, read) - end).norm() < 1e-8);
+  }
 }
 
 TEST_CASE_TEMPLATE("Periodic images: a resumed run has them, also under other laws", Dimension,

@@ -38,9 +38,10 @@ TEST_CASE("Shear observables: correlations of one disk by hand") {
   simulation.run_until(100.0);
   const Measured measured = measurement.result();
   const ResultTable moved = table_of(measured, "mean_squared_displacement");
-  CHECK(moved.columns.size() == 3);  // time, y, drift_y
+  CHECK(moved.columns.size() == 4);  // time, total, y, drift_y
   for (std::size_t row = 0; row < moved.columns[0].values.size(); ++row) {
     const double lag = moved.columns[0].values[row];
+    CHECK(column_of(moved, "total").values[row] == doctest::Approx(0.36 * lag * lag));
     CHECK(column_of(moved, "y").values[row] == doctest::Approx(0.36 * lag * lag));
     CHECK(column_of(moved, "drift_y").values[row] == doctest::Approx(-0.6 * lag));
   }

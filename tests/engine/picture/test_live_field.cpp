@@ -332,4 +332,11 @@ TEST_CASE("LiveField: arrows of a sheared box include the flow, and fields do no
     CHECK(std::fabs(arrow.value[0] - flow) < thermal);
   }
   REQUIRE(snapshot.arrows->arrows.size() >= 20);
+  // Under another rate, as during a ramp, they show its flow.
+  scene.shear_rate = -1.0;
+  simulation->set_laws(model_of<2>(scene, 36));
+  live.publish(snapshot);
+  for (const auto& arrow : snapshot.arrows->arrows) {
+    CHECK(std::fabs(arrow.value[0] + (arrow.place[1] - 4.0)) < thermal);
+  }
 }
