@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "engine/dynamics/simulation.h"
-#include "engine/dynamics/state_hash.h"
 #include "engine/physics/collision.h"
 #include "tests/engine/support/gas.h"
 #include "tests/engine/support/reference.h"
@@ -226,11 +225,7 @@ void check_images(const Vec<D>& box, int count, std::uint64_t collisions) {
   Simulation<D> simulation(model, start);
   Images<D> images(model);
   simulation.add_observer(images);
-  const BaseMoves<D> moves(simulation);
-  Reference<D> reference(model, start, moves);
-  simulation.run_until(kNever, collisions);
-  reference.run_until_collisions(collisions);
-  CHECK(simulation.state_hash() == state_hash<D>(reference.state()));
+  run_beside_reference(simulation, start, collisions);
   MESSAGE(images.far, " of ", simulation.counts().pair_collisions,
           " collisions with these images, separation off by ", brief(images.longest));
   CHECK(images.far > 50);

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "engine/dynamics/simulation.h"
-#include "engine/dynamics/state_hash.h"
 #include "tests/engine/support/gas.h"
 #include "tests/engine/support/reference.h"
 #include "tests/extremes/figure.h"

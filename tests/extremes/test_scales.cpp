@@ -199,11 +199,7 @@ TEST_CASE("Scales: a gas of speeds 1e-4, 1e-8, 1e-12 between walls with v_dr = 1
     State<2> start = random_gas(model, 100, 912);
     for (Vec2& v : start.velocities) v *= speed;
     Simulation<2> simulation(model, start);
-    const BaseMoves<2> moves(simulation);
-    Reference<2> reference(model, start, moves);
-    simulation.run_until(kNever, 100);
-    reference.run_until_collisions(100);
-    CHECK(simulation.state_hash() == state_hash<2>(reference.state()));
+    run_beside_reference(simulation, start, 100);
     simulation.run_until(kNever, 20000);
     deepest = std::max(deepest, simulation.checks().deepest_overlap);
     check_sound(simulation);
@@ -230,11 +226,7 @@ void check_fast_particle(const Vec<D>& box) {
     start.velocities[5] *= 1e12;
     Simulation<D> simulation(model, start);
     const double energy = simulation.kinetic_energy();
-    const BaseMoves<D> moves(simulation);
-    Reference<D> reference(model, start, moves);
-    simulation.run_until(kNever, 300);
-    reference.run_until_collisions(300);
-    CHECK(simulation.state_hash() == state_hash<D>(reference.state()));
+    run_beside_reference(simulation, start, 300);
     simulation.run_until(kNever, 20000);
     if (!closed) energy_off = std::fabs(simulation.kinetic_energy() / energy - 1.0);
     CHECK(finite_and_inside(model, simulation.state()));

@@ -4,7 +4,6 @@
 #include <initializer_list>
 
 #include "engine/dynamics/simulation.h"
-#include "engine/dynamics/state_hash.h"
 #include "tests/engine/support/gas.h"
 #include "tests/engine/support/reference.h"
 #include "tests/extremes/figure.h"
@@ -26,11 +25,7 @@ struct Figures {
 void shake(const Model<2>& model, std::uint64_t collisions, Figures& figures) {
   const State<2> start = clear_gas(model, 10, 956);
   Simulation<2> simulation(model, start);
-  const BaseMoves<2> moves(simulation);
-  Reference<2> reference(model, start, moves);
-  simulation.run_until(kNever, collisions);
-  reference.run_until_collisions(collisions);
-  CHECK(simulation.state_hash() == state_hash<2>(reference.state()));
+  run_beside_reference(simulation, start, collisions);
   CHECK(simulation.checks().clock_steps_back < 1e-13);
   // Brute force supports walls at their rest positions only. It tests all pairs of particles.
   Model<2> open = model;

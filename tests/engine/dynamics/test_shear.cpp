@@ -6,7 +6,6 @@
 
 #include "engine/dynamics/near_particles.h"
 #include "engine/dynamics/simulation.h"
-#include "engine/dynamics/state_hash.h"
 #include "engine/initial/start_state.h"
 #include "engine/measure/totals.h"
 #include "engine/physics/contact.h"
@@ -55,12 +54,7 @@ void compare(const std::string& name, const Model<D>& model, const State<D>& sta
   CAPTURE(name);
   CAPTURE(start.positions.size());
   Simulation<D> simulation(model, start);
-  const BaseMoves<D> moves(simulation);
-  Reference<D> reference(model, start, moves);
-  simulation.run_until(kNever, collisions);
-  reference.run_until_collisions(collisions);
-  CHECK(simulation.counts().pair_collisions == reference.collisions());
-  CHECK(simulation.state_hash() == state_hash<D>(reference.state()));
+  run_beside_reference(simulation, start, collisions);
   CHECK(deepest_overlap(simulation) < 1e-12);
   CHECK(simulation.deepest_overlap() < 1e-12);
   // Two particles fly through hundreds of images between collisions, far from the origin.

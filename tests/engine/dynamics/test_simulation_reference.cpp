@@ -31,13 +31,7 @@ struct Case {
 template <int D>
 void compare(const Model<D>& model, const State<D>& start, std::uint64_t collisions = 2000) {
   Simulation<D> simulation(model, start);
-  const BaseMoves<D> moves(simulation);
-  Reference<D> reference(model, start, moves);
-  simulation.run_until(kNever, collisions);
-  reference.run_until_collisions(collisions);
-  CHECK(simulation.counts().pair_collisions == reference.collisions());
-  CHECK(simulation.counts().wall_collisions == reference.wall_hits());
-  CHECK(simulation.state_hash() == state_hash<D>(reference.state()));
+  run_beside_reference(simulation, start, collisions);
   // Moving walls leave the planes in which the reference looks for them.
   const bool walls_move =
       std::ranges::any_of(model.walls, [](const auto& wall) { return wall && wall->moves(); });

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <doctest/doctest.h>
+
 #include <cstdint>
 #include <set>
 #include <vector>
@@ -8,6 +10,7 @@
 #include "engine/dynamics/clock.h"
 #include "engine/dynamics/event.h"
 #include "engine/dynamics/simulation.h"
+#include "engine/dynamics/state_hash.h"
 #include "engine/laws/model.h"
 #include "engine/physics/flight.h"
 
@@ -93,5 +96,20 @@ class Reference {
   std::uint64_t particle_particle_ = 0, particle_wall_ = 0, kicks_ = 0;
   const BaseMoves<D>& moves_;
 };
+
+/// Runs a simulation up to so many collisions, and checks that the reference then has the same
+/// counts and the same state to the last bit.
+template <int D>
+void run_beside_reference(Simulation<D>& simulation, const State<D>& start,
+                          std::uint64_t collisions) {
+  const BaseMoves<D> moves(simulation);
+  Reference<D> reference(simulation.model(), start, moves);
+  simulation.run_until(kNever, collisions);
+  simulation.remove_observer(moves);
+  reference.run_until_collisions(collisions);
+  CHECK(simulation.counts().pair_collisions == reference.collisions());
+  CHECK(simulation.counts().wall_collisions == reference.wall_hits());
+  CHECK(simulation.state_hash() == state_hash<D>(reference.state()));
+}
 
 }  // namespace clatter::testing
