@@ -208,12 +208,15 @@ replicas = 4
 "particles.start.temperature" = 10.0
 "measure.burn_in" = 50.0
 "measure.duration" = 300.0
+"measure.fields" = []
+"measure.cells" = {}
 
 [axes]
 "particles.restitution" = {{ from = 0.6, to = 0.98, count = 9 }}
 "particles.count" = {}
 )",
-      disks ? "[60.0, 60.0]" : "[18.0, 18.0, 18.0]", disks ? "[90, 1350]" : "[220, 3350]");
+      disks ? "[60.0, 60.0]" : "[18.0, 18.0, 18.0]", disks ? "[1, 1]" : "[1, 1, 1]",
+      disks ? "[90, 1350]" : "[220, 3350]");
   const auto chart = [](const std::string& name, const std::string& y, const std::string& label,
                         const std::string& title, const std::string& caption) {
     return StudyChart{name,
