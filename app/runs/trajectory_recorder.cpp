@@ -32,7 +32,7 @@ void visit(Archive& io, SavedTrajectory& saved) {
 // Moves the particles of a sheared box into the cell whose edge along y leads to the next image
 // above. Readers require that it leans by at most half a side.
 template <int D>
-void tilt(TrajectoryFrame<D>& frame, const Domain<D>& domain) {
+void put_into_tilted_cell(TrajectoryFrame<D>& frame, const Domain<D>& domain) {
   const double length = domain.box[0], height = domain.box[1];
   const double boxes = std::round(domain.offset / length);
   frame.tilt = domain.offset - boxes * length;
@@ -130,7 +130,9 @@ void TrajectoryRecorder<D>::add(const Simulation<D>& simulation) {
                            .particles = particles_,
                            .state = simulation.state(),
                            .images = images_->images()};
-  if (const Domain<D> domain = simulation.domain(); domain.sheared) tilt(frame, domain);
+  if (const Domain<D> domain = simulation.domain(); domain.sheared) {
+    put_into_tilted_cell(frame, domain);
+  }
   frame.state.spins.resize(particles_.spins ? frame.state.positions.size() : 0, Spin<D>::Zero());
   file_->add(frame);
   ++next_;

@@ -50,7 +50,7 @@ struct PairCollision {
     approach[0] += shear_rate * separation[1];
     return approach;
   }
-  /// Gain in kinetic energy of both, in one frame: what the collision does not dissipate.
+  /// Gain in kinetic energy of both, in one frame: minus the energy that the collision dissipates.
   double energy() const {
     return particles[0].energy() + particles[1].energy() +
            shear_rate * separation[1] * particles[0].gain.momentum[0];

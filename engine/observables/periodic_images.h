@@ -40,7 +40,8 @@ class PeriodicImages : public Observer<D> {
 
   const Simulation<D>& simulation_;
   std::vector<IntVec<D>> of_flights_;  // [N] image of the box in which the current flight began
-  Domain<D> domain_;                   // at the base; before a change of laws: then
+  // At time 0 on the base; during a change of laws at its time, under the laws before.
+  Domain<D> domain_;
   Observation<D> observation_;
 };
 

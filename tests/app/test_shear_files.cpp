@@ -43,6 +43,7 @@ TEST_CASE("Shear files: readers have the tilted cell, and unwrapped positions mo
     measure(shell, file, "");
     const json frames = read_by(shell, "read_tilted.py", file);
     REQUIRE(frames.size() == 83);
+    // Single precision of two frames limits the speed, and so a path of 80 times their distance.
     const double rounding = format == "gsd" || format == "lammpstrj" ? 1e-5 : 1e-12;
     const auto centre = [&](std::size_t frame, std::size_t axis) {
       double sum = 0.0;
