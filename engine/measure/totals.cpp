@@ -12,7 +12,7 @@ Totals<D>::Totals(const Simulation<D>& simulation)
       integrated_to_(simulation.base_time()),
       window_start_(integrated_to_) {
   fit_window();
-  take_stock([](const Vec<D>&) {});
+  take_stock();
 }
 
 // A window has sums of sliding walls and of shear only if the scene has them.
@@ -45,25 +45,57 @@ void Totals<D>::change_inertia(double before, double after) {
   spin_squares_ += gained;
 }
 
-// Sums over the particles at this time, which removes the accumulated rounding. Calls
-// visit(squares) with m v_k^2 of each.
+// Sums over the particles at this time, which removes the accumulated rounding.
 template <int D>
-template <class Visit>
-void Totals<D>::take_stock(const Visit& visit) {
+void Totals<D>::take_stock() {
   mass_ = simulation_.mass();
   squares_.setZero();
   momentum_.setZero();
   cross_ = 0.0;
+  quartics_.fill(Vec<D>::Zero());
+  stock_taken_ = integrated_to_;
+  changes_ = 0;
   spin_squares_ = 2.0 * simulation_.spin_energy();
   simulation_.for_masses([&](const Flight<D>& flight, auto mass) {
     const double m = mass;
     const Vec<D> v = simulation_.peculiar_at(flight, integrated_to_);
-    const Vec<D> squares = m * v.cwiseAbs2();
-    visit(squares);
-    squares_ += squares;
+    squares_ += m * v.cwiseAbs2();
     momentum_ += m * v;
     cross_ += m * v[0] * v[1];
+    add_quartics(m, v, integrated_to_, 1.0);
   });
+}
+
+// Whether velocities, without that of the flow, change between events.
+template <int D>
+bool Totals<D>::accelerates() const {
+  return simulation_.model().has_gravity() || simulation_.model().shear_rate;
+}
+
+// Adds a share, 1 or -1, of what a particle with this velocity at a time contributes.
+template <int D>
+void Totals<D>::add_quartics(double mass, const Vec<D>& velocity, double time, double share) {
+  const double weight = share * mass * mass;
+  if (!accelerates()) {
+    quartics_[0] += weight * velocity.cwiseAbs2().cwiseAbs2();
+    return;
+  }
+  const Vec<D> a = simulation_.model().gravity - rate() * velocity[1] * kAlongX<D>;
+  const Vec<D> v = velocity - (time - stock_taken_) * a;
+  const Vec<D> vv = v.cwiseAbs2(), va = v.cwiseProduct(a), aa = a.cwiseAbs2();
+  quartics_[0] += weight * vv.cwiseAbs2();
+  quartics_[1] += 4.0 * weight * vv.cwiseProduct(va);
+  quartics_[2] += 6.0 * weight * va.cwiseAbs2();
+  quartics_[3] += 4.0 * weight * va.cwiseProduct(aa);
+  quartics_[4] += weight * aa.cwiseAbs2();
+}
+
+template <int D>
+Vec<D> Totals<D>::quartics_at(double time) const {
+  const double since = time - stock_taken_;
+  Vec<D> sum = quartics_[4];
+  for (int power = 3; power >= 0; --power) sum = since * sum + quartics_[power];
+  return sum;
 }
 
 // Between events sum m v_k^2 is a parabola in time, because all particles have the same
@@ -120,6 +152,9 @@ void Totals<D>::book_work(double mass, const Vec<D>& distance) {
 template <int D>
 void Totals<D>::change(const ParticleChange<D>& particle, double time) {
   const Impulse<D>& gain = particle.gain;
+  ++changes_;
+  add_quartics(particle.grain.mass, particle.velocity, time, -1.0);
+  add_quartics(particle.grain.mass, particle.velocity_after(), time, 1.0);
   squares_ +=
       gain.momentum.cwiseProduct(gain.momentum / particle.grain.mass + 2.0 * particle.velocity);
   momentum_ += gain.momentum;
@@ -137,13 +172,15 @@ void Totals<D>::before_laws(const Model<D>& next) {
   const Model<D>& present = simulation_.model();
   integrate_to(simulation_.base_time());
   change_inertia(present.inertia, next.inertia);
-  if (!keeps_flights<D>(present, next)) end_flights();
+  if (keeps_flights<D>(present, next)) return;
+  end_flights();
+  changes_ = kDue;
 }
 
-// Particles may have entered at rest.
+// Accelerations may be others, and particles may have entered at rest.
 template <int D>
 void Totals<D>::on_laws() {
-  mass_ = simulation_.mass();
+  if (is_stock_due() || simulation_.mass() != mass_) take_stock();
   fit_window();
 }
 
@@ -206,6 +243,7 @@ template <int D>
 void Totals<D>::on_base_moved(double shift) {
   integrated_to_ -= shift;
   window_start_ -= shift;
+  stock_taken_ -= shift;
 }
 
 template <int D>
@@ -214,10 +252,11 @@ WindowTotals<D> Totals<D>::close_window() {
   integrate_to(now);
   const double count = static_cast<double>(simulation_.particles().size());
   window_.duration = now - window_start_;
-  take_stock([&](const Vec<D>& squares) {
-    window_.second_moment += squares / count;
-    window_.fourth_moment += squares.cwiseAbs2() / count;
-  });
+  if (is_stock_due()) take_stock();
+  if (count > 0.0) {
+    window_.second_moment = squares_ / count;
+    window_.fourth_moment = quartics_at(now) / count;
+  }
   if (count > 0.0 && window_.duration > 0.0) {
     window_.temperature = integral_ / (window_.duration * count);
     window_.spin_temperature = spin_integral_ / (window_.duration * count * kSpinSize<D>);

@@ -119,6 +119,66 @@ TEST_CASE("Totals: the ledger shows missing events") {
   CHECK(totals.ledger_residual() > 1e-3);
 }
 
+// The moments at the end of a window must equal those of the state, whose flow is removed here.
+static void check_moments(const WindowTotals<2>& window, const Simulation<2>& simulation) {
+  const double shear_rate = simulation.model().shear_rate.value_or(0.0);
+  const State<2> state = simulation.state();
+  Vec2 second = Vec2::Zero(), fourth = Vec2::Zero();
+  const auto count = static_cast<double>(state.positions.size());
+  for (std::uint32_t i = 0; i < state.positions.size(); ++i) {
+    Vec2 v = state.velocities[i];
+    v.x() -= shear_rate * (state.positions[i].y() - 0.5 * simulation.model().box.y());
+    const Vec2 square = simulation.grain(i).mass * v.cwiseAbs2();
+    second += square / count;
+    fourth += square.cwiseAbs2() / count;
+  }
+  for (const int k : {0, 1}) {
+    CHECK(window.second_moment[k] == doctest::Approx(second[k]).epsilon(1e-11));
+    CHECK(window.fourth_moment[k] == doctest::Approx(fourth[k]).epsilon(1e-11));
+  }
+}
+
+// Windows of different lengths, most of them with fewer events than particles.
+static void check_moments(Simulation<2>& simulation) {
+  Totals<2> totals(simulation);
+  const Observation<2> observation(simulation, totals);
+  std::vector<double> ends = {0.02, 0.05, 0.1, 0.5, 2.0, 30.0};
+  for (int k = 0; k < 400; ++k) ends.push_back(ends.back() + 0.05);  // the base moves meanwhile
+  for (const double end : ends) {
+    CAPTURE(end);
+    simulation.run_until(end);
+    check_moments(totals.close_window(), simulation);
+  }
+}
+
+TEST_CASE("Totals: the moments of velocity at the ends of windows are those of the state") {
+  for (const bool mixes : {false, true}) {
+    CAPTURE(mixes);
+    check_moments(*run_of(rough_mixture(30), 8, mixes));
+    check_moments(*run_of(everything_in_motion(30), 8, mixes));
+  }
+  const Model<2> model = sheared(inelastic(periodic_box(9.0, 8.0), 0.8), -1.3);
+  Simulation<2> simulation(model, gas_in_flow<2>(model, 30));
+  check_moments(simulation);
+}
+
+TEST_CASE("Totals: the moments of velocity are those of the state after a change of gravity") {
+  Simulation<2> simulation(falling(periodic_box(9.0, 8.0), {0.0, -0.5}),
+                           clear_gas(periodic_box(9.0, 8.0), 30, 81));
+  Totals<2> totals(simulation);
+  const Observation<2> observation(simulation, totals);
+  simulation.run_until(1.0);
+  Model<2> model = simulation.model();
+  model.gravity.y() = 2.0;
+  simulation.set_laws(model);
+  const std::uint64_t before = simulation.counts().pair_collisions;
+  simulation.run_until(1.1);
+  const std::uint64_t since = simulation.counts().pair_collisions - before;
+  CHECK(since > 0);
+  CHECK(since < 15);  // fewer changes than particles
+  check_moments(totals.close_window(), simulation);
+}
+
 // One particle falls from time 0, another one from time 1. Between 1 and 2 the mean of v^2 is
 // g^2 (7/3 + 1/3)/2.
 TEST_CASE("Totals: particles that enter fall from then on") {
@@ -130,7 +190,9 @@ TEST_CASE("Totals: particles that enter fall from then on") {
   totals.close_window();
   simulation.add_particles({{7.0, 5.0}});
   simulation.run_until(2.0);
-  CHECK(totals.close_window().temperature.y() == doctest::Approx(0.25 * 4.0 / 3.0).epsilon(1e-12));
+  const WindowTotals<2> window = totals.close_window();
+  CHECK(window.temperature.y() == doctest::Approx(0.25 * 4.0 / 3.0).epsilon(1e-12));
+  CHECK(window.fourth_moment.y() == doctest::Approx((1.0 + 0.0625) / 2.0).epsilon(1e-12));
 }
 
 TEST_CASE("Totals: the momentum of the walls equals the loss of the gas") {
