@@ -15,6 +15,11 @@ using IntVec = Eigen::Matrix<int, D, 1>;
 
 using Vec2 = Vec<2>;
 
+/// The direction of the first axis. A product with it stays in a vector register: a processor waits
+/// for a vector of which one component was written on its own.
+template <int D>
+inline const Vec<D> kAlongX = Vec<D>::Unit(0);
+
 /// A vector of two or three components: the dimension of the scene.
 using VecX = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 3, 1>;
 

@@ -199,28 +199,6 @@ void CellGrid<D>::lay_with_flow(const Domain<D>& domain, double now) {
 }
 
 template <int D>
-std::array<Exit, D> CellGrid<D>::flow_exits(const Flight<D>& seen, const IntVec<D>& cell,
-                                            double now) const {
-  std::array<Exit, D> exits;
-  for (int axis = 1; axis < D; ++axis) {
-    const bool upper = seen.v[axis] >= 0.0;
-    const double way = border(axis, cell[axis], upper) - seen.r[axis];
-    exits[axis] = {std::max(now, seen.time + way / (seen.v[axis] + 0.0)), border_of(axis, upper)};
-  }
-  // Along x the cells move: x - s y is a parabola in time.
-  const double since = now - seen.time, strain = strain_at(now);
-  const double y = seen.r[1] + seen.v[1] * since - middle();
-  const double x = seen.r[0] + seen.v[0] * since - strain * y;
-  const double speed = seen.v[0] - strain * seen.v[1] - strain_rate_ * y;
-  const double lower = border(0, cell[0], false), upper = border(0, cell[0], true);
-  const WayOut out = exit_time(x - lower, upper - x, speed, -2.0 * strain_rate_ * seen.v[1]);
-  double time = now + out.time;
-  if (time == now && (speed < 0.0) == out.upper) time = std::nextafter(now, kNever);
-  exits[0] = {time, border_of(0, out.upper)};
-  return exits;
-}
-
-template <int D>
 IntVec<D> CellGrid<D>::cell_at(const Vec<D>& position) const {
   return cell_of<D>(position - subdomain_.lower, widths_, counts_);
 }

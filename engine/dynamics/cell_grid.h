@@ -180,8 +180,9 @@ class CellGrid {
     position[0] -= strain_at(time) * (position[1] - middle());
     return position;
   }
-  /// The exits of a flight that is seen from its cell in a sheared box, without gravity.
-  std::array<Exit, D> flow_exits(const Flight<D>& seen, const IntVec<D>& cell, double now) const;
+  /// The same in a sheared box, without gravity. The domain has the offset of time 0.
+  std::array<Exit, D> flow_exits(const Domain<D>& domain, const Flight<D>& flight,
+                                 const Vec<D>& image, const IntVec<D>& cell, double now) const;
 
   /// Calls visit(list) for the first list of each cell that move() changes, for a reach of 1.
   /// Across a periodic border move() changes further lists.
@@ -373,6 +374,38 @@ template <bool kFalling>
       exits[axis] = {std::max(now, time[axis]), border_of(axis, upper[axis])};
     }
   }
+  return exits;
+}
+
+// By components: they are read from memory, and a vector of them would first be written there.
+template <int D>
+[[gnu::always_inline]] inline std::array<Exit, D> CellGrid<D>::flow_exits(const Domain<D>& domain,
+                                                                          const Flight<D>& flight,
+                                                                          const Vec<D>& image,
+                                                                          const IntVec<D>& cell,
+                                                                          double now) const {
+  std::array<Exit, D> exits;
+  for (int axis = 1; axis < D; ++axis) {
+    const bool upper = flight.v[axis] >= 0.0;
+    const double way =
+        border(axis, cell[axis], upper) + image[axis] * domain.box[axis] - flight.r[axis];
+    exits[axis] = {std::max(now, flight.time + way / (flight.v[axis] + 0.0)),
+                   border_of(axis, upper)};
+  }
+  // Along x the cells move: x - s y is a parabola in time.
+  const double since = now - flight.time, strain = strain_at(now);
+  const double y = flight.r[1] - image[1] * domain.box[1] + flight.v[1] * since - middle();
+  const double slide = domain.velocity_x(image);
+  const double shift = image[0] * domain.box[0] + image[1] * domain.offset + slide * flight.time;
+  const double v = flight.v[0] - slide;
+  const double x = flight.r[0] - shift + v * since - strain * y;
+  const double speed = v - strain * flight.v[1] - strain_rate_ * y;
+  const double lower = border(0, cell[0], false), upper = border(0, cell[0], true);
+  const WayOut out = exit_time(x - lower, upper - x, speed, -2.0 * strain_rate_ * flight.v[1]);
+  double time = now + out.time;
+  if (time == now && (speed < 0.0) == out.upper) [[unlikely]]
+    time = std::nextafter(now, kNever);
+  exits[0] = {time, border_of(0, out.upper)};
   return exits;
 }
 

@@ -125,7 +125,7 @@ struct Groups {
   int count = 0;
   PairApproach<Doubles> approaches[kMax];
   Doubles times[kMax];
-  Ints images{};  // the bits of all rows' images
+  Ints images{};  // with kShifted the bits of all rows' images, otherwise their differences
 };
 
 // Distances at contact of a particle and four neighbours, if all particles are alike: a double.
@@ -168,7 +168,7 @@ template <int D, bool kFalling, bool kShifted, class Sizes>
   const Doubles time = broadcast(own[2 * D]);
   const PackedImage word = image_word<D>(own);
   const Ints own_image{word, word, word, word};
-  groups.images = own_image;
+  groups.images = own_image & (kShifted ? kImageMask : kFarImage);
   for (int i = 0; i < Candidates<D>::kMargin; ++i)
     candidates.neighbours[candidates.size + i] = particle;
   for (int i = 0; i == 0 || i < candidates.size; i += kCount) {
@@ -180,7 +180,7 @@ template <int D, bool kFalling, bool kShifted, class Sizes>
     Doubles columns[kRowLength];
     for (int k = 0; k < kRowLength; k += 4) transpose(row, k, columns + k);
     const Ints image = second_words(columns[kImage<D>]);
-    groups.images |= image;
+    groups.images |= kShifted ? image : image ^ own_image;
     Doubles shift[D], slide{};
     const Doubles* slides = nullptr;
     if constexpr (kShifted) {
@@ -234,9 +234,8 @@ template <int D, bool kShifted>
 /// or the Radii of a mixture. `gravity` is read only with kFalling. The result has the same bits
 /// with any instruction set.
 ///
-/// Without kShifted, no candidate may have a wrap, and all rows must be in the frame of the box.
-/// With kShifted, no row's image may be far. If a row does not fit, `unique` is false and the
-/// other results are invalid.
+/// Without kShifted, no candidate may have a wrap, and all rows must be in the same frame. No row's
+/// image may be far. If a row does not fit, `unique` is false and the other results are invalid.
 template <int D, bool kFalling, bool kShifted, std::size_t kParticles, class Sizes>
 [[gnu::always_inline]] inline std::array<FirstContact, kParticles> first_contacts(
     const double* rows, const std::array<std::uint32_t, kParticles>& particles,

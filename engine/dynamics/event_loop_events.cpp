@@ -118,8 +118,8 @@ void EventLoop<D>::renew_flight(std::uint32_t number, const Vec<D>& position,
   if (domain_.sheared) [[unlikely]] {
     const Domain<D> domain = domain_.at(now_);
     const Vec<D> image = domain.image_at(position);
-    flight = {position - domain.shift(image), velocity, now_, flight.number + 1};
-    flight.v[0] -= domain.velocity_x(image);
+    flight = {position - domain.shift(image), velocity - domain.velocity_x(image) * kAlongX<D>,
+              now_, flight.number + 1};
     gas_.particles.move_image(number, -image);
     return;
   }
@@ -162,7 +162,7 @@ void EventLoop<D>::collide(std::uint32_t first, std::uint32_t second, const IntV
   const Vec<D> x = (r_a - r_b) + shift;
   Vec<D> g = v_a - v_b;
   if (domain_.sheared) [[unlikely]]
-    g[0] += domain_.velocity_x(image.template cast<double>());
+    g += domain_.velocity_x(image.template cast<double>()) * kAlongX<D>;
   const bool mixed = !grains_.empty();
   const Grain &one = grain(first), &other = grain(second);
   const double distance = one.radius + other.radius;

@@ -177,9 +177,13 @@ class Neighbourhood {
   }
   /// Box lengths along x by which the next image above has slid, beside the wraps of neighbours.
   int boxes_slid() const { return grid_.boxes_slid(); }
-  /// The exits of a flight that is seen from its cell in a sheared box, one along each axis.
-  std::array<Exit, D> flow_exits(const Flight<D>& seen, const IntVec<D>& cell, double now) const {
-    return grid_.flow_exits(seen, cell, now);
+  /// The exits of a particle from its cell in a sheared box, one along each axis. The domain has
+  /// the offset of time 0.
+  [[gnu::always_inline]] std::array<Exit, D> flow_exits(const Domain<D>& domain,
+                                                        const ParticleArray<D>& particles,
+                                                        std::uint32_t number, const IntVec<D>& cell,
+                                                        double now) const {
+    return grid_.flow_exits(domain, particles[number].flight, particles.image(number), cell, now);
   }
   /// Whether a particle that crosses a border of its cell leaves all cells.
   bool leaves_all(const IntVec<D>& cell, std::uint32_t border) const {

@@ -148,8 +148,8 @@ std::array<FirstContact, kParticles> Prediction<D>::first_of(
 }
 
 // The fast path, which fits most events. It requires lists without continuations and wraps, and a
-// unique first contact. No particle may have crossed a periodic border in its flight. Returns false
-// for other lists; the plans are then invalid.
+// unique first contact. The flights of all particles must be in the frame of the same image.
+// Returns false for other lists; the plans are then invalid.
 template <int D>
 template <bool kFalling, bool kMixed, std::size_t kParticles>
 bool Prediction<D>::look_at_plain_lists(const Requests<kParticles>& requests) const {
@@ -283,9 +283,10 @@ void Prediction<D>::offer_first(std::uint32_t particle, const Candidates<D>& nea
 template <int D>
 void Prediction<D>::offer_flow_exits(const Request& request, double now) const {
   const auto [particle, plan] = request;
-  const Flight<D> seen =
-      boundary_.domain().seen_from(particles_.image(particle), particles_[particle].flight);
-  for (const Exit& exit : near_.flow_exits(seen, plan->cell, now)) offer_exit(exit, *plan);
+  for (const Exit& exit :
+       near_.flow_exits(boundary_.domain(), particles_, particle, plan->cell, now)) {
+    offer_exit(exit, *plan);
+  }
 }
 
 // A wall's reach is slightly farther than the wall moves in, so that rounding at a cell's border

@@ -43,14 +43,14 @@ struct Domain {
   Vec<D> shift(const Vec<D>& image) const {
     Vec<D> shift = image.cwiseProduct(box);
     if (sheared) [[unlikely]]
-      shift[0] += image[1] * offset;
+      shift += image[1] * offset * kAlongX<D>;
     return shift;
   }
   /// The same after a time.
   Vec<D> shift(const Vec<D>& image, double time) const {
     Vec<D> shift = image.cwiseProduct(box);
     if (sheared) [[unlikely]]
-      shift[0] = (shift[0] + image[1] * offset) + velocity_x(image) * time;
+      shift = (shift + image[1] * offset * kAlongX<D>)+velocity_x(image) * time * kAlongX<D>;
     return shift;
   }
   /// The velocity of an image along x.
@@ -76,19 +76,18 @@ struct Domain {
   }
   /// The velocity of the flow at a position, in the frame of the position's image (theory 14.1).
   Vec<D> flow(const Vec<D>& position) const {
-    Vec<D> flow = Vec<D>::Zero();
-    if (sheared) flow[0] = slide * (position[1] / box[1] - 0.5);
-    return flow;
+    if (!sheared) return Vec<D>::Zero();
+    return slide * (position[1] / box[1] - 0.5) * kAlongX<D>;
   }
   /// A velocity without that of the flow at a position in the same frame.
-  Vec<D> peculiar(const Vec<D>& position, Vec<D> velocity) const {
-    if (sheared) velocity[0] -= flow(position)[0];
-    return velocity;
+  Vec<D> peculiar(const Vec<D>& position, const Vec<D>& velocity) const {
+    if (!sheared) return velocity;
+    return velocity - flow(position);
   }
   /// A flight seen from an image. Its time is on the base of this domain's offset.
   Flight<D> seen_from(const Vec<D>& image, Flight<D> flight) const {
     flight.r -= shift(image, flight.time);
-    flight.v[0] -= velocity_x(image);
+    flight.v -= velocity_x(image) * kAlongX<D>;
     return flight;
   }
 

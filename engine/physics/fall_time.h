@@ -33,20 +33,26 @@ struct WayOut {
 /// zero.
 ///
 /// As fall_time(), but branch-free, because the speed's sign and the plane are unpredictable.
+/// Vectors of two equal numbers make compilers select without branches.
 inline WayOut exit_time(double above, double below, double speed, double acceleration) {
-  const bool upwards = acceleration > 0.0;
-  const double a = std::fabs(acceleration);
-  const double falling = upwards ? speed : -speed;
-  const double depth = std::max(0.0, upwards ? below : above);
-  const double height = std::max(0.0, upwards ? above : below);
-  const double square = falling * falling;
-  const double at_height = square - 2.0 * a * height;
-  const bool gets_there = (falling < 0.0) & (at_height > 0.0);
-  const double root = std::sqrt(gets_there ? at_height : square + 2.0 * a * depth);
-  const bool turns = (falling <= 0.0) & !gets_there;
-  const double numerator = turns ? root - falling : 2.0 * (gets_there ? height : depth);
-  const double denominator = turns ? a : root + std::fabs(falling);
-  return {numerator / denominator, upwards != gets_there};
+  using Number = double __attribute__((vector_size(16)));
+  const auto number = [](double value) { return Number{value, value}; };
+  const Number zero{}, a = number(std::fabs(acceleration)), to_lower = number(above),
+                       to_upper = number(below);
+  const auto upwards = number(acceleration) > zero;
+  const Number falling = upwards ? number(speed) : number(-speed);
+  const auto positive = [&](const Number& value) { return value > zero ? value : zero; };
+  const Number depth = positive(upwards ? to_upper : to_lower);
+  const Number height = positive(upwards ? to_lower : to_upper);
+  const Number square = falling * falling;
+  const Number at_height = square - 2.0 * a * height;
+  const auto gets_there = (falling < zero) & (at_height > zero);
+  const Number discriminant = gets_there ? at_height : square + 2.0 * a * depth;
+  const Number root = number(std::sqrt(discriminant[0]));
+  const auto turns = (falling <= zero) & ~gets_there;
+  const Number numerator = turns ? root - falling : 2.0 * (gets_there ? height : depth);
+  const Number denominator = turns ? a : root + number(std::fabs(speed));
+  return {numerator[0] / denominator[0], upwards[0] != gets_there[0]};
 }
 
 }  // namespace clatter
