@@ -16,6 +16,7 @@
 #include "engine/dynamics/simulation.h"
 #include "engine/error.h"
 #include "engine/initial/gaussian_velocities.h"
+#include "engine/initial/growth.h"
 #include "engine/initial/mixture_state.h"
 #include "engine/initial/overlap_removal.h"
 #include "engine/initial/random_insertion.h"
@@ -31,6 +32,8 @@ namespace clatter {
 // and 0.384 for spheres (Torquato, Uche & Stillinger 2006).
 template <int D>
 static constexpr double kInsertionFraction = D == 2 ? 0.54 : 0.37;
+// Number of particles from which they grow.
+static constexpr int kFewestGrown = 20'000;
 // Above these packing fractions there is no fluid: the fluid of disks ends at 0.700 (Bernard &
 // Krauth 2011), and spheres crystallise spontaneously.
 template <int D>
@@ -273,12 +276,16 @@ class Placement {
         fixtures_(std::move(fixtures)),
         random_(seed, Stream::Placement, 0, 0),
         grains_(std::move(grains)) {
-    if (layout != Layout::Random) {
+    if (layout == Layout::Lattice) {
       positions_ = lattice_positions(room_, count_, seed_, fixtures_);
     } else if (!have_equal_radii(grains_) || fixtures_.differ()) {
       begin_removal();
     } else if (fraction() <= kInsertionFraction<D>) {
-      insertion_.emplace(room_, count_, random_, fixtures_);
+      if (layout == Layout::Random && count_ >= kFewestGrown && !fixtures_.any()) {
+        growth_.emplace(room_, count_, random_);
+      } else {
+        insertion_.emplace(room_, count_, random_, fixtures_);
+      }
     } else if (fixtures_.any()) {
       begin_removal();
     }
@@ -295,6 +302,12 @@ class Placement {
                         std::string("give fewer of them, or a larger box") +
                             (fits ? ", or set particles.start.layout = \"lattice\"" : ""));
       }
+    }
+    if (growth_) {
+      if (!growth_->advance(pause)) return false;
+      positions_ = growth_->take();
+      growth_.reset();
+      return_unused_memory();
     }
     if (insertion_) {
       if (!insertion_->advance(pause)) return false;
@@ -325,6 +338,7 @@ class Placement {
 
   double progress() const {
     if (removal_) return removal_->progress();
+    if (growth_) return growth_->progress();
     if (insertion_) return static_cast<double>(insertion_->placed()) / std::max(1, count_);
     if (melting_) return melting_->progress();
     return is_complete() ? 1.0 : 0.0;
@@ -387,7 +401,8 @@ class Placement {
   Random random_;
   std::vector<Grain> grains_;                    // of a mixture; empty: particles are alike
   std::optional<OverlapRemoval<D>> removal_;     // the present part of the work, or none
-  std::optional<RandomInsertion<D>> insertion_;  // the present part of the work, or none
+  std::optional<Growth<D>> growth_;              // the same
+  std::optional<RandomInsertion<D>> insertion_;  // the same
   std::optional<Melting<D>> melting_;            // the same
   std::vector<Vec<D>> sites_;                    // of the lattice that will melt
   std::vector<Vec<D>> positions_;                // of the complete work

@@ -24,8 +24,10 @@ constexpr std::string_view name_of(E chosen, const Names& names) {
   return {};
 }
 
-inline constexpr std::array<Named<Layout>, 3> kLayouts = {
-    {{"random", Layout::Random}, {"lattice", Layout::Lattice}, {"file", Layout::File}}};
+inline constexpr std::array<Named<Layout>, 4> kLayouts = {{{"random", Layout::Random},
+                                                           {"insertion", Layout::Insertion},
+                                                           {"lattice", Layout::Lattice},
+                                                           {"file", Layout::File}}};
 
 inline constexpr std::array<Named<WallKind>, 5> kWallKinds = {
     {{"static", WallKind::Static},

@@ -22,7 +22,12 @@
 namespace clatter {
 
 /// Placement of the particles at time 0.
-enum class Layout { Random, Lattice, File };
+enum class Layout {
+  Random,     ///< without order, by a method that fits the number of particles
+  Insertion,  ///< as Random, by the methods for small gases
+  Lattice,
+  File
+};
 
 /// Positions and velocities at time 0.
 struct Start {
