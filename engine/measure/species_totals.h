@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "engine/dynamics/observer.h"
@@ -73,8 +74,8 @@ class SpeciesTotals : public Observer<D> {
   /// Visits the members that a checkpoint keeps. The continued simulation must be at the same time.
   template <class Archive>
   void visit(Archive& io) {
-    auto& [simulation, counts, species, window_start, window] = *this;
-    io(counts, species, window_start, window);
+    auto& [simulation, counts, species, changes, window_start, window] = *this;
+    io(counts, species, changes, window_start, window);
     io.require(species.size() == simulation.model().species->count());
   }
 
@@ -110,6 +111,7 @@ class SpeciesTotals : public Observer<D> {
   const Simulation<D>& simulation_;
   std::vector<std::size_t> counts_;
   std::vector<Motion> species_;
+  std::uint64_t changes_ = 0;  // of particles since the last stock
   double window_start_;
   SpeciesTotalsWindow<D> window_;
 };
