@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <cstring>
 #include <numbers>
 
 namespace clatter {
@@ -82,55 +83,117 @@ void StructureFactor<D>::add_shell(double low, double high, int most) {
   shells_.push_back(std::move(shell));
 }
 
-// The sum of exp(-i k.r) for each wave vector. The factors exp(i n u x) of all n and of a block of
-// particles come from products. The block stays in the cache.
+// The factors exp(i n u x) of all n and of a block of particles. They come from products.
+template <int D>
+struct StructureFactor<D>::Factors {
+  static constexpr std::size_t kBlock = 64;
+
+  std::array<std::vector<double>, D> real, imaginary;  // [most + 1][block]
+
+  explicit Factors(const IntVec<D>& most) {
+    for (int axis = 0; axis < D; ++axis) {
+      const std::size_t size = (static_cast<std::size_t>(most[axis]) + 1) * kBlock;
+      real[axis].resize(size);
+      imaginary[axis].resize(size);
+    }
+  }
+
+  // Those of the first particles of a block. The others count nothing: theirs are 0.
+  [[gnu::always_inline]] inline void set(const Vec<D>* positions, std::size_t count,
+                                         const Vec<D>& shortest, const IntVec<D>& most) {
+    for (int axis = 0; axis < D; ++axis) {
+      double first_re[kBlock] = {}, first_im[kBlock] = {};
+      double *re = real[axis].data(), *im = imaginary[axis].data();
+      for (std::size_t k = 0; k < kBlock; ++k) {
+        re[k] = k < count ? 1.0 : 0.0;
+        im[k] = 0.0;
+        if (k >= count) continue;
+        const auto first = std::polar(1.0, shortest[axis] * positions[k][axis]);
+        first_re[k] = first.real();
+        first_im[k] = first.imag();
+      }
+      for (int n = 0; n < most[axis]; ++n, re += kBlock, im += kBlock) {
+        for (std::size_t k = 0; k < kBlock; ++k) {
+          re[kBlock + k] = re[k] * first_re[k] - im[k] * first_im[k];
+          im[kBlock + k] = re[k] * first_im[k] + im[k] * first_re[k];
+        }
+      }
+    }
+  }
+
+  // The sum of exp(i k.r) of the block.
+  [[gnu::always_inline]] inline std::complex<double> sum(const IntVec<D>& vector) const {
+    constexpr std::size_t kLanes = 4;
+    using Lanes = double __attribute__((vector_size(8 * kLanes)));
+    std::array<const double*, D> re, im;
+    std::array<double, D> sign;
+    for (int axis = 0; axis < D; ++axis) {
+      const std::size_t place = static_cast<std::size_t>(std::abs(vector[axis])) * kBlock;
+      re[axis] = real[axis].data() + place;
+      im[axis] = imaginary[axis].data() + place;
+      sign[axis] = vector[axis] < 0 ? -1.0 : 1.0;
+    }
+    Lanes sum_re{}, sum_im{};
+    for (std::size_t k = 0; k < kBlock; k += kLanes) {
+      Lanes a, b;
+      std::memcpy(&a, re[0] + k, sizeof a);
+      std::memcpy(&b, im[0] + k, sizeof b);
+      b *= sign[0];
+      for (int axis = 1; axis < D; ++axis) {
+        Lanes c, d;
+        std::memcpy(&c, re[axis] + k, sizeof c);
+        std::memcpy(&d, im[axis] + k, sizeof d);
+        d *= sign[axis];
+        const Lanes product = a * c - b * d;
+        b = a * d + b * c;
+        a = product;
+      }
+      sum_re += a;
+      sum_im += b;
+    }
+    return {(sum_re[0] + sum_re[1]) + (sum_re[2] + sum_re[3]),
+            (sum_im[0] + sum_im[1]) + (sum_im[2] + sum_im[3])};
+  }
+};
+
+// The block stays in the cache.
+template <int D>
+[[gnu::always_inline]] inline void StructureFactor<D>::add_density(
+    const std::vector<Vec<D>>& positions, std::vector<std::complex<double>>& density) const {
+  const Vec<D> shortest = unit();
+  Factors factors(most_);
+  for (std::size_t begin = 0; begin < positions.size(); begin += Factors::kBlock) {
+    factors.set(&positions[begin], std::min(Factors::kBlock, positions.size() - begin), shortest,
+                most_);
+    std::size_t index = 0;
+    for (const Shell& shell : shells_) {
+      for (const IntVec<D>& vector : shell.vectors) density[index++] += factors.sum(vector);
+    }
+  }
+}
+
+#if defined(__x86_64__)
+template <int D>
+[[gnu::target("avx2")]] void StructureFactor<D>::add_density_avx2(
+    const std::vector<Vec<D>>& positions, std::vector<std::complex<double>>& density) const {
+  add_density(positions, density);
+}
+#endif
+
+// The sum of exp(i k.r) for each wave vector. Wider vectors have equal results.
 template <int D>
 std::vector<std::complex<double>> StructureFactor<D>::density_of(
     const std::vector<Vec<D>>& positions) const {
-  constexpr std::size_t kBlock = 64;
-  using Factor = std::complex<double>;
-  const Vec<D> shortest = unit();
-  std::array<std::vector<Factor>, D> factors;  // [most + 1][block]
-  for (int axis = 0; axis < D; ++axis) {
-    factors[axis].resize((static_cast<std::size_t>(most_[axis]) + 1) * kBlock);
-  }
   std::size_t vectors = 0;
   for (const Shell& shell : shells_) vectors += shell.vectors.size();
-  std::vector<Factor> density(vectors, 0.0);
-  for (std::size_t begin = 0; begin < positions.size(); begin += kBlock) {
-    const std::size_t count = std::min(kBlock, positions.size() - begin);
-    for (int axis = 0; axis < D; ++axis) {
-      for (std::size_t k = 0; k < count; ++k) {
-        const Factor first = std::polar(1.0, shortest[axis] * positions[begin + k][axis]);
-        Factor power = 1.0;
-        for (int n = 0; n <= most_[axis]; ++n) {
-          factors[axis][static_cast<std::size_t>(n) * kBlock + k] = power;
-          power = {power.real() * first.real() - power.imag() * first.imag(),
-                   power.real() * first.imag() + power.imag() * first.real()};
-        }
-      }
-    }
-    std::size_t index = 0;
-    for (const Shell& shell : shells_) {
-      for (const IntVec<D>& vector : shell.vectors) {
-        double real = 0.0, imaginary = 0.0;
-        for (std::size_t k = 0; k < count; ++k) {
-          double re = 1.0, im = 0.0;
-          for (int axis = 0; axis < D; ++axis) {
-            const auto n = static_cast<std::size_t>(std::abs(vector[axis]));
-            const Factor factor = factors[axis][n * kBlock + k];
-            const double sine = vector[axis] < 0 ? -factor.imag() : factor.imag();
-            const double product = re * factor.real() - im * sine;
-            im = re * sine + im * factor.real();
-            re = product;
-          }
-          real += re;
-          imaginary += im;
-        }
-        density[index++] += Factor(real, imaginary);
-      }
-    }
+  std::vector<std::complex<double>> density(vectors, 0.0);
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2")) {
+    add_density_avx2(positions, density);
+    return density;
   }
+#endif
+  add_density(positions, density);
   return density;
 }
 

@@ -35,7 +35,14 @@ class StructureFactor final : public Observable {
   };
 
   void add_shell(double low, double high, int most);
+  struct Factors;
   std::vector<std::complex<double>> density_of(const std::vector<Vec<D>>& positions) const;
+  [[gnu::always_inline]] inline void add_density(const std::vector<Vec<D>>& positions,
+                                                 std::vector<std::complex<double>>& density) const;
+#if defined(__x86_64__)
+  void add_density_avx2(const std::vector<Vec<D>>& positions,
+                        std::vector<std::complex<double>>& density) const;
+#endif
   void add_products(const std::vector<std::complex<double>>& first,
                     const std::vector<std::complex<double>>& second, double factor,
                     std::size_t place);
