@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/physics/elementary.h"
 #include "engine/physics/theory.h"
 
 namespace clatter {
@@ -23,15 +24,19 @@ Growth<D>::Growth(const Room<D>& room, int count, Random& random)
       diameter_(room.diameter),
       low_(Vec<D>::Zero()),
       high_(room.box) {
-  const double fraction = packing_fraction(D, count * std::pow(diameter_, D) / room.box.prod());
-  const auto scale_to = [&](double other) { return std::pow(other / fraction, 1.0 / D); };
+  const double cube = Vec<D>::Constant(diameter_).prod();
+  const double fraction = packing_fraction(D, count * cube / room.box.prod());
+  // The scale of lengths that leads to another packing fraction, at most 2.
+  const auto scale_to = [&](double other) {
+    return exponential(std::min(natural_log(other / fraction) / D, natural_log(2.0)));
+  };
   inserted_diameter_ = diameter_ * std::min(1.0, scale_to(kInsertedFraction<D>));
   // A share of the gaps in a lattice of this density. The pressure after one collision a particle
   // is nearest to that of equilibrium.
   const double gap_of_lattice = diameter_ * (scale_to(closest_packing(D)) - 1.0);
   most_gap_ = std::clamp(0.35 * gap_of_lattice, 0.0, 0.07 * diameter_);
   double most = 1.0;  // cells along an axis: those of a sparse gas are few
-  while (std::pow(most + 1.0, D) <= 4.0 * count) most += 1.0;
+  while (Vec<D>::Constant(most + 1.0).prod() <= 4.0 * count) most += 1.0;
   std::size_t cells = 1;
   for (int axis = 0; axis < D; ++axis) {
     domain_.periodic[axis] = !room.walled[axis];
