@@ -16,7 +16,7 @@ using IntVec = Eigen::Matrix<int, D, 1>;
 using Vec2 = Vec<2>;
 
 /// The direction of the first axis. A product with it stays in a vector register: a processor waits
-/// for a vector of which one component was written on its own.
+/// for a vector of which one component was written on its own. Not for initialisers of static data.
 template <int D>
 inline const Vec<D> kAlongX = Vec<D>::Unit(0);
 

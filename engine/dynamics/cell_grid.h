@@ -180,7 +180,8 @@ class CellGrid {
     position[0] -= strain_at(time) * (position[1] - middle());
     return position;
   }
-  /// The same in a sheared box, without gravity. The domain has the offset of time 0.
+  /// The exits of a particle from its cell in a sheared box, without gravity, see exits(). The
+  /// domain has the offset of time 0.
   std::array<Exit, D> flow_exits(const Domain<D>& domain, const Flight<D>& flight,
                                  const Vec<D>& image, const IntVec<D>& cell, double now) const;
 

@@ -24,20 +24,7 @@ Growth<D>::Growth(const Room<D>& room, int count, Random& random)
       diameter_(room.diameter),
       low_(Vec<D>::Zero()),
       high_(room.box) {
-  const double cube = Vec<D>::Constant(diameter_).prod();
-  const double fraction = packing_fraction(D, count * cube / room.box.prod());
-  // The scale of lengths that leads to another packing fraction, at most 2.
-  const auto scale_to = [&](double other) {
-    return exponential(std::min(natural_log(other / fraction) / D, natural_log(2.0)));
-  };
-  inserted_diameter_ = diameter_ * std::min(1.0, scale_to(kInsertedFraction<D>));
-  // A share of the gaps in a lattice of this density. The pressure after one collision a particle
-  // is nearest to that of equilibrium.
-  const double gap_of_lattice = diameter_ * (scale_to(closest_packing(D)) - 1.0);
-  most_gap_ = std::clamp(0.35 * gap_of_lattice, 0.0, 0.07 * diameter_);
-  double most = 1.0;  // cells along an axis: those of a sparse gas are few
-  while (Vec<D>::Constant(most + 1.0).prod() <= 4.0 * count) most += 1.0;
-  std::size_t cells = 1;
+  Vec<D> fit;  // cells
   for (int axis = 0; axis < D; ++axis) {
     domain_.periodic[axis] = !room.walled[axis];
     if (room.walled[axis]) {
@@ -45,12 +32,33 @@ Growth<D>::Growth(const Room<D>& room, int count, Random& random)
       high_[axis] -= low_[axis];
     }
     constexpr double kWider = 1.01;  // than the diameter
+    fit[axis] = std::max(1.0, std::floor((high_[axis] - low_[axis]) / (kWider * diameter_)));
+  }
+  // Of the room for centres: in a narrow room they are denser than the particles.
+  constexpr double kDensest = 0.6, kNarrowest = 0.25;
+  const Vec<D> extents = (high_ - low_).cwiseMax(kNarrowest * diameter_);
+  const double cube = Vec<D>::Constant(diameter_).prod();
+  const double fraction = std::min(kDensest, packing_fraction(D, count * cube / extents.prod()));
+  // The scale of lengths that leads to another packing fraction, at most 2.
+  const auto scale_to = [&](double other) {
+    return exponential(std::min(natural_log(other / fraction) / D, natural_log(2.0)));
+  };
+  inserted_diameter_ = diameter_ * std::min(1.0, scale_to(kInsertedFraction<D>));
+  // A share of the gaps in a lattice of this density. After one collision a particle, the pressure
+  // is within 4 percent of that in equilibrium.
+  const double gap_of_lattice = diameter_ * (scale_to(closest_packing(D)) - 1.0);
+  most_gap_ = std::clamp(0.35 * gap_of_lattice, 0.0, 0.07 * diameter_);
+  // The cells of a sparse gas are few.
+  while (fit.prod() > 4.0 * count + 64.0) {
+    int longest;
+    fit.maxCoeff(&longest);
+    fit[longest] = std::ceil(0.5 * fit[longest]);
+  }
+  for (int axis = 0; axis < D; ++axis) {
     const double extent = high_[axis] - low_[axis];
-    const double fit = std::floor(extent / (kWider * diameter_));
-    counts_[axis] = static_cast<int>(std::clamp(fit, 1.0, most));
+    counts_[axis] = static_cast<int>(fit[axis]);
     widths_[axis] = extent > 0.0 ? extent / counts_[axis] : diameter_;
     is_narrow_ = is_narrow_ || (domain_.periodic[axis] && counts_[axis] < 3);
-    cells *= static_cast<std::size_t>(counts_[axis]);
   }
   // Differences of numbers, which wrap around 2^32.
   IntVec<D> step = IntVec<D>::Constant(-1);
@@ -58,7 +66,7 @@ Growth<D>::Growth(const Room<D>& room, int count, Random& random)
     difference = index_of(step);
     for (int axis = 0; ++step[axis] > 1 && axis < D - 1; ++axis) step[axis] = -1;
   }
-  heads_.assign(cells, kNone);
+  heads_.assign(static_cast<std::size_t>(fit.prod()), kNone);
   places_.reserve(count_);
   next_.reserve(count_);
   make_blocks(fraction);
@@ -201,7 +209,7 @@ template <int D>
 void Growth<D>::try_in(Block& block) {
   constexpr int kCellsPerTry = 3;
   const IntVec<D> cells = block.last - block.first;
-  for (int tries = (cells.prod() + kCellsPerTry - 1) / kCellsPerTry; tries > 0; --tries) {
+  for (int tries = cells.prod() / kCellsPerTry + block.missing / 2 + 1; tries > 0; --tries) {
     if (block.missing == 0) return;
     Vec<D> place;
     for (int axis = 0; axis < D; ++axis) {
@@ -255,7 +263,9 @@ bool Growth<D>::part_pairs(const StopRequest& pause) {
   return true;
 }
 
-// Moves a particle and each one that it overlaps apart, each by half of the way.
+// Moves a particle and each one that it overlaps apart, each by half of the way. The particle may
+// change its cell meanwhile, and some of its neighbours are not seen. The next pass looks at it
+// again.
 template <int D>
 void Growth<D>::part_from_others(std::uint32_t particle) {
   visit_near(places_[particle], [&](std::uint32_t other, const Vec<D>& shift) {

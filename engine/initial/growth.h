@@ -64,7 +64,7 @@ class Growth {
   double inserted_diameter_;
   double most_gap_;    // between two particles that have moved apart
   Vec<D> low_, high_;  // limits of centres
-  IntVec<D> counts_;   // of cells along each axis, each wider than the diameter
+  IntVec<D> counts_;   // of cells along each axis: one, or each wider than the diameter
   Vec<D> widths_;
   std::array<std::uint32_t, D == 2 ? 9 : 27> steps_;  // from a cell to it and the adjacent ones
   bool is_narrow_ = false;            // whether two images of a cell are neighbours of a third one

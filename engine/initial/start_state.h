@@ -44,14 +44,14 @@ FixtureImages<D> start_fixtures(const Scene& scene, const Vec<D>& corner);
 /// of the range of moving walls. With layout File the state comes from the file.
 ///
 /// A random layout uses random insertion up to a packing fraction of 0.54 for disks and 0.37 for
-/// spheres. There 20,000 and more particles that are alike have the places of Growth, unless there
-/// are fixtures. Up to 0.7 and 0.54, where a fluid exists, it melts a lattice. Above it is a
-/// lattice with random vacancies. From 0.49 on a crystal of spheres is stable beside the fluid, and
-/// some of its order may remain. Species of one diameter have these places at random, and those of
-/// several diameters have the places of OverlapRemoval. Between fixtures random insertion comes
-/// first, and then OverlapRemoval. A lattice has no sites in fixtures. The two sides of a divider
-/// with numbers of particles are rooms of their own. The scene must be validated: its count fits
-/// one of the lattices. Throws Interrupted.
+/// spheres. There 20,000 and more particles of one diameter have the places of Growth, unless there
+/// are fixtures or the layout is Insertion. Up to 0.7 and 0.54, where a fluid exists, it melts a
+/// lattice. Above it is a lattice with random vacancies. From 0.49 on a crystal of spheres is
+/// stable beside the fluid, and some of its order may remain. Species of one diameter have these
+/// places at random, and those of several diameters have the places of OverlapRemoval. Between
+/// fixtures random insertion comes first, and then OverlapRemoval. A lattice has no sites in
+/// fixtures. The two sides of a divider with numbers of particles are rooms of their own. The scene
+/// must be validated: its count fits one of the lattices. Throws Interrupted.
 template <int D>
 State<D> start_state(const Scene& scene, std::uint64_t seed, const StopRequest& stop = {});
 

@@ -49,8 +49,10 @@ struct Domain {
   /// The same after a time.
   Vec<D> shift(const Vec<D>& image, double time) const {
     Vec<D> shift = image.cwiseProduct(box);
-    if (sheared) [[unlikely]]
-      shift = (shift + image[1] * offset * kAlongX<D>)+velocity_x(image) * time * kAlongX<D>;
+    if (sheared) [[unlikely]] {
+      shift += image[1] * offset * kAlongX<D>;
+      shift += velocity_x(image) * time * kAlongX<D>;
+    }
     return shift;
   }
   /// The velocity of an image along x.

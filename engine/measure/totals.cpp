@@ -48,6 +48,7 @@ void Totals<D>::change_inertia(double before, double after) {
 // Sums over the particles at this time, which removes the accumulated rounding.
 template <int D>
 void Totals<D>::take_stock() {
+  count_ = simulation_.particles().size();
   mass_ = simulation_.mass();
   squares_.setZero();
   momentum_.setZero();
@@ -180,7 +181,7 @@ void Totals<D>::before_laws(const Model<D>& next) {
 // Accelerations may be others, and particles may have entered at rest.
 template <int D>
 void Totals<D>::on_laws() {
-  if (is_stock_due() || simulation_.mass() != mass_) take_stock();
+  if (is_stock_due() || simulation_.particles().size() != count_) take_stock();
   fit_window();
 }
 

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "engine/dynamics/observer.h"
@@ -77,7 +76,7 @@ class Totals : public Observer<D> {
  private:
   // Sums that events carry along gather rounding. Stock is due when each particle, on average, has
   // changed.
-  static constexpr std::uint64_t kDue = std::numeric_limits<std::uint64_t>::max();
+  static constexpr std::uint64_t kDue = std::uint64_t{1} << 63;
   bool is_stock_due() const { return changes_ >= simulation_.particles().size(); }
 
   void change(const ParticleChange<D>& particle, double time);
@@ -100,6 +99,7 @@ class Totals : public Observer<D> {
   double energy_at_start_;
   double booked_ = 0.0;               // energy gain since the start, by events and ended flights
   double booked_sizes_ = 0.0;         // sum of |bookings|
+  std::size_t count_ = 0;             // of particles
   double mass_ = 0.0;                 // of all particles
   Vec<D> squares_ = Vec<D>::Zero();   // sum of m v_k^2 at integrated_to_
   Vec<D> momentum_ = Vec<D>::Zero();  // sum of m v_k at integrated_to_
@@ -120,12 +120,12 @@ class Totals : public Observer<D> {
 template <int D>
 template <class Archive>
 void Totals<D>::visit(Archive& io) {
-  auto& [simulation, energy_at_start, booked, booked_sizes, mass, squares, momentum, cross,
+  auto& [simulation, energy_at_start, booked, booked_sizes, count, mass, squares, momentum, cross,
          spin_squares, quartics, stock_taken, changes, integrated_to, window_start, integral,
          cross_integral, spin_integral, window] = *this;
   const double inertia = simulation.model().inertia;
   double saved_inertia = inertia;
-  io(saved_inertia, energy_at_start, booked, booked_sizes, mass, squares, momentum, cross,
+  io(saved_inertia, energy_at_start, booked, booked_sizes, count, mass, squares, momentum, cross,
      spin_squares, quartics, stock_taken, changes, integrated_to, window_start, integral,
      cross_integral, spin_integral, window);
   change_inertia(saved_inertia, inertia);

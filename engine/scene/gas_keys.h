@@ -265,11 +265,8 @@ void visit_piston(Visitor& io, Piston& piston, const std::vector<std::string>& s
 inline constexpr auto kStartKeys = key_table(
     kRunCommands,
     {{"layout", "",
-      "Positions at time 0: random, on a lattice, or from a file. 20000 and more particles that "
-      "are "
-      "alike grow from random places, up to an area fraction of 0.54 or a volume fraction of 0.37. "
-      "Fewer are inserted one by one; insertion does this for any number. At higher fractions a "
-      "lattice melts."},
+      "Positions at time 0. random: without order, by a method that suits the number of particles. "
+      "insertion: random by the methods for small gases. Also a lattice, or a file."},
      {"file", "", "Name of the CSV file with the state at time 0, relative to the scene file."},
      {"temperature", "m a^2/t^2",
       "Temperature at time 0. Velocities are Gaussian with zero mean, and scaled to this value."},

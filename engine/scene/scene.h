@@ -24,7 +24,7 @@ namespace clatter {
 /// Placement of the particles at time 0.
 enum class Layout {
   Random,     ///< without order, by a method that fits the number of particles
-  Insertion,  ///< as Random, by the methods for small gases
+  Insertion,  ///< as Random, but never by Growth
   Lattice,
   File
 };

