@@ -14,16 +14,17 @@ uniform float u_nearest;           // least w of what is drawn, see render/eye.h
 uniform float u_depth_range;       // largest |z/w|
 uniform mat3 u_axes;               // from the view to the world
 uniform vec3 u_centre;             // world position of the centre of the view
-uniform bool u_encoded;            // output sRGB values instead of linear light
 
 out vec4 o_colour;
 
 const float kOpaque = 1.0 / 512.0;  // a fog that transmits less hides everything
 const ivec2 kBeside[4] = ivec2[](ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1));
 
+#ifdef ENCODED
 vec3 srgb(vec3 c) {
   return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
 }
+#endif
 
 // Place on the ray of a depth of the buffer.
 float place_of(float depth) {
@@ -81,6 +82,8 @@ void main() {
     at = next;
   }
   float opacity = 1.0 - transmitted;
-  if (u_encoded && opacity > 0.0) light = opacity * srgb(light / opacity);
+#ifdef ENCODED
+  if (opacity > 0.0) light = opacity * srgb(light / opacity);
+#endif
   o_colour = vec4(light, opacity);
 }

@@ -27,6 +27,10 @@ std::string name_file_and_line(const std::string& log, std::string_view file) {
 
 }  // namespace
 
+const Program& ProgramVariants::with(const std::string& defines) {
+  return programs_.try_emplace(defines, *gl_, vertex_file_, fragment_file_, defines).first->second;
+}
+
 void set_colour(const Gl& gl, const Program& program, const char* uniform, Colour colour) {
   gl.Uniform4f(program.uniform(uniform), colour.red / 255.0f, colour.green / 255.0f,
                colour.blue / 255.0f, colour.alpha / 255.0f);

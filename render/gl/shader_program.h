@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "engine/embedded_file.h"
@@ -29,6 +31,24 @@ class Program {
  private:
   const Gl* gl_;
   ShaderProgram program_;
+};
+
+/// Programs of the same files with different macros. Drivers without branches compute all parts of
+/// a shader for each pixel, so a macro removes parts that a picture does not need.
+class ProgramVariants {
+ public:
+  /// Files of a Program. Nothing is compiled yet.
+  ProgramVariants(const Gl& gl, std::string_view vertex_file, std::string_view fragment_file)
+      : gl_(&gl), vertex_file_(vertex_file), fragment_file_(fragment_file) {}
+
+  /// The program with these macros, see Program. The first call compiles it.
+  const Program& with(const std::string& defines);
+
+ private:
+  const Gl* gl_;
+  std::string_view vertex_file_;
+  std::string_view fragment_file_;
+  std::map<std::string, Program> programs_;  ///< by their macros
 };
 
 /// Sets a vec4 uniform of the program, which must be in use.

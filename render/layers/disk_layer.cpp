@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <string>
 
 #include "render/layers/chords.h"
 #include "render/layers/wall_layer.h"
@@ -207,14 +208,14 @@ void DiskLayer::draw_shapes(const Snapshot& snapshot, const Projection& projecti
   const double reach = radius_pixels(snapshot, projection) + kSoftEdge;
   if (2.0 * reach <= largest_point_) {
     // OpenGL drops points with their centre outside the viewport, so the viewport has a margin.
-    set_uniforms(point_, snapshot, projection, colours.blending, tiling.faintness,
-                 static_cast<int>(reach) + 1);
+    use(point_, snapshot, projection, colours.blending, tiling.faintness,
+        static_cast<int>(reach) + 1);
     if (gl_->api == Api::Desktop) gl_->Enable(GL_PROGRAM_POINT_SIZE);  // ES: always on
     gl_->BindVertexArray(points_.id());
     radii_of_disks_.set(3, radii_, 0);
     gl_->DrawArrays(GL_POINTS, 0, count);
   } else {
-    set_uniforms(square_, snapshot, projection, colours.blending, tiling.faintness, 0);
+    use(square_, snapshot, projection, colours.blending, tiling.faintness, 0);
     gl_->BindVertexArray(squares_.id());
     radii_of_disks_.set(3, radii_, 1);
     gl_->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
@@ -223,23 +224,24 @@ void DiskLayer::draw_shapes(const Snapshot& snapshot, const Projection& projecti
   gl_->Viewport(0, 0, projection.drawn().width, projection.drawn().height);
 }
 
-void DiskLayer::set_uniforms(const Program& program, const Snapshot& snapshot,
-                             const Projection& projection, Blending blending, float faintness,
-                             int margin) const {
+// Uses the program for these pictures. The viewport has a margin around the picture, in pixels.
+void DiskLayer::use(ProgramVariants& programs, const Snapshot& snapshot,
+                    const Projection& projection, Blending blending, float faintness, int margin) {
   const int width = projection.drawn().width + 2 * margin;
   const int height = projection.drawn().height + 2 * margin;
   gl_->Viewport(-margin, -margin, width, height);
 
   const Faces faces = faces_of(snapshot);
-  const Vec2 low = projection.pixels(faces.low);
-  const Vec2 high = projection.pixels(faces.high);
+  const Vec2 low = projection.pixels(faces.low), high = projection.pixels(faces.high);
+  std::string defines;
+  if (blending == Blending::Encoded) defines += "ENCODED ";
+  if (!snapshot.angles.empty()) defines += "MARKED ";
+  const Program& program = programs.with(defines);
   program.use();
   gl_->Uniform2f(program.uniform("u_origin"), -margin, -margin);
   gl_->Uniform2f(program.uniform("u_extent"), width, height);
   gl_->Uniform1f(program.uniform("u_samples"), projection.samples);
-  gl_->Uniform1i(program.uniform("u_encoded"), blending == Blending::Encoded);
   gl_->Uniform1f(program.uniform("u_faintness"), faintness);
-  gl_->Uniform1i(program.uniform("u_marked"), !snapshot.angles.empty());
   gl_->Uniform2f(program.uniform("u_box_low"), low.x(), low.y());
   gl_->Uniform2f(program.uniform("u_box_high"), high.x(), high.y());
 }

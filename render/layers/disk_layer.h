@@ -42,13 +42,13 @@ class DiskLayer {
                const Tiling& tiling);
   void draw_shapes(const Snapshot& snapshot, const Projection& projection,
                    const DiskColours& colours, const Tiling& tiling);
-  void set_uniforms(const Program& program, const Snapshot& snapshot, const Projection& projection,
-                    Blending blending, float faintness, int margin) const;
+  void use(ProgramVariants& programs, const Snapshot& snapshot, const Projection& projection,
+           Blending blending, float faintness, int margin);
 
   const Gl* gl_;
   double largest_point_;
-  Program point_;
-  Program square_;
+  ProgramVariants point_;
+  ProgramVariants square_;
   SweptLayer swept_;
   LightLayer light_;
   Buffer buffer_;

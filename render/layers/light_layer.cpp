@@ -4,7 +4,7 @@ namespace clatter {
 
 LightLayer::LightLayer(const Gl& gl)
     : gl_(&gl),
-      program_(gl, "field.vert", "light.frag"),
+      programs_(gl, "field.vert", "light.frag"),
       vertices_(generate<VertexArray>(gl, gl.GenVertexArrays)),
       areas_(generate<Texture>(gl, gl.GenTextures)) {
   gl.BindTexture(GL_TEXTURE_2D, areas_.id());
@@ -34,7 +34,7 @@ void LightLayer::end(const Projection& projection, const Faces& faces, float fai
 }
 
 void LightLayer::draw(const Coverage& coverage, const Projection& projection, const Faces& faces,
-                      float faintness, Blending blending) const {
+                      float faintness, Blending blending) {
   const Size extent = coverage.extent();
   gl_->ActiveTexture(GL_TEXTURE0);
   gl_->BindTexture(GL_TEXTURE_2D, areas_.id());
@@ -44,22 +44,22 @@ void LightLayer::draw(const Coverage& coverage, const Projection& projection, co
 }
 
 void LightLayer::draw(GLuint light, int margin, const Projection& projection, const Faces& faces,
-                      float faintness, Blending blending) const {
+                      float faintness, Blending blending) {
   const Size size = projection.drawn();
   const Vec2 low = projection.pixels(faces.low), high = projection.pixels(faces.high);
   gl_->Viewport(0, 0, size.width, size.height);
   gl_->ActiveTexture(GL_TEXTURE0);
   gl_->BindTexture(GL_TEXTURE_2D, light);
-  program_.use();
-  gl_->Uniform2f(program_.uniform("u_size"), size.width, size.height);
-  gl_->Uniform2f(program_.uniform("u_low"), 0.0f, 0.0f);
-  gl_->Uniform2f(program_.uniform("u_high"), size.width, size.height);
-  gl_->Uniform2f(program_.uniform("u_box_low"), low.x(), low.y());
-  gl_->Uniform2f(program_.uniform("u_box_high"), high.x(), high.y());
-  gl_->Uniform1f(program_.uniform("u_faintness"), faintness);
-  gl_->Uniform1i(program_.uniform("u_light"), 0);
-  gl_->Uniform1i(program_.uniform("u_margin"), margin);
-  gl_->Uniform1i(program_.uniform("u_encoded"), blending == Blending::Encoded);
+  const Program& program = programs_.with(blending == Blending::Encoded ? "ENCODED" : "");
+  program.use();
+  gl_->Uniform2f(program.uniform("u_size"), size.width, size.height);
+  gl_->Uniform2f(program.uniform("u_low"), 0.0f, 0.0f);
+  gl_->Uniform2f(program.uniform("u_high"), size.width, size.height);
+  gl_->Uniform2f(program.uniform("u_box_low"), low.x(), low.y());
+  gl_->Uniform2f(program.uniform("u_box_high"), high.x(), high.y());
+  gl_->Uniform1f(program.uniform("u_faintness"), faintness);
+  gl_->Uniform1i(program.uniform("u_light"), 0);
+  gl_->Uniform1i(program.uniform("u_margin"), margin);
   gl_->BindVertexArray(vertices_.id());
   gl_->BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   encode_light(*gl_, blending == Blending::Light);

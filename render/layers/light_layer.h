@@ -34,16 +34,16 @@ class LightLayer {
   void end(const Projection& projection, const Faces& faces, float faintness, Blending blending);
   /// Blends the light of a coverage over the bound framebuffer, with faces as above.
   void draw(const Coverage& coverage, const Projection& projection, const Faces& faces,
-            float faintness, Blending blending) const;
+            float faintness, Blending blending);
 
  private:
   // Blends a texture over the bound framebuffer. The texture has `margin` more pixels on every
   // side.
   void draw(GLuint light, int margin, const Projection& projection, const Faces& faces,
-            float faintness, Blending blending) const;
+            float faintness, Blending blending);
 
   const Gl* gl_;
-  Program program_;
+  ProgramVariants programs_;
   VertexArray vertices_;             ///< no attributes: the shader computes the corners
   Texture areas_;                    ///< of a coverage
   std::optional<Canvas> collected_;  ///< buffer of begin(); absent: not used yet

@@ -19,7 +19,7 @@ static Eigen::Array4f fog_of(double value, const ColourScale& scale) {
 VolumeLayer::VolumeLayer(const Gl& gl, Blending blending)
     : gl_(&gl),
       blending_(blending),
-      program_(gl, "field.vert", "volume.frag"),
+      program_(gl, "field.vert", "volume.frag", blending == Blending::Encoded ? "ENCODED" : ""),
       vertices_(generate<VertexArray>(gl, gl.GenVertexArrays)),
       cells_(generate<Texture>(gl, gl.GenTextures)) {
   gl.BindTexture(GL_TEXTURE_3D, cells_.id());
@@ -52,7 +52,6 @@ void VolumeLayer::draw(const Snapshot& snapshot, const View& view, const Project
   gl_->Uniform2f(program_.uniform("u_high"), drawn.width, drawn.height);
   gl_->Uniform1i(program_.uniform("u_cells"), 0);
   gl_->Uniform1i(program_.uniform("u_depths"), 1);
-  gl_->Uniform1i(program_.uniform("u_encoded"), blending_ == Blending::Encoded);
   gl_->Uniform1f(program_.uniform("u_extinction"), view.volume);
   gl_->Uniform1f(program_.uniform("u_nearest"), Eye::kNearest);
   gl_->BindVertexArray(vertices_.id());
