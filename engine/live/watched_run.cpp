@@ -90,6 +90,8 @@ class RunOf : public WatchedRun {
   void note_changes();
   SavedState<D> saved_state();
   void record(bool stopped = false);
+  void record_change();
+  bool record_is_due() const;
   void save_head();
   void return_to(const SavedState<D>& saved, const std::vector<Change>& changes);
   double leave_start(double delay);
@@ -183,12 +185,25 @@ void RunOf<D>::record(bool stopped) {
   record_.add(std::move(state));
 }
 
+// After a change at the present time. A replay from an earlier state makes the change again, but a
+// recorded state of this time has the former laws.
+template <int D>
+void RunOf<D>::record_change() {
+  head_ = time();
+  if (record_.before(time()).time == time() || record_is_due()) record();
+}
+
 // Records the present state, if it is the latest and not yet recorded.
 template <int D>
 void RunOf<D>::save_head() {
   if (time() < head_ || record_.before(time()).time == time()) return;
   settle();
   record();
+}
+
+template <int D>
+bool RunOf<D>::record_is_due() const {
+  return record_.due(work_of(counts(), run_.simulation().particles().size()));
 }
 
 template <int D>
@@ -205,8 +220,7 @@ bool RunOf<D>::run_until(double time, std::uint64_t collisions, std::uint64_t st
   settled_ = false;
   try {
     const bool arrived = settled_ = run_.run_until(time, collisions, steps, pause);
-    const std::size_t particles = run_.simulation().particles().size();
-    if (record_.due(work_of(counts(), particles))) save_head();
+    if (record_is_due()) save_head();
     return arrived;
   } catch (const PhysicalStop&) {
     const SavedState<D>* next = record_.after(this->time(), counts().collisions());
@@ -280,7 +294,7 @@ void RunOf<D>::branch(const std::function<void()>& change) {
   }
   settled_ = true;
   scene_.reset();
-  record();
+  record_change();
 }
 
 // The record keeps no state before a change at time 0, and such an act could not be

@@ -11,9 +11,9 @@
 #include "engine/scene/scene.h"
 
 // Time travel. The window's run keeps a RunRecord: a SavedState after every so much work of the
-// engine, and after each change of laws. At the limit of its memory the record removes every second
-// state. A jump continues from the nearest state before its time and replays the rest, so it has
-// the bits of the first pass. Commands wait meanwhile, and a frame follows at the end. A state has
+// engine, and where a change of laws replaces a future. At the limit of its memory the record
+// removes every second state. A jump continues from the nearest state before its time and replays
+// the rest with its changes, so it has the bits of the first pass. Commands wait meanwhile, and a frame follows at the end. A state has
 // the laws at its time; the Schedule from there has the later changes. The head is the latest time
 // of the run, and looks into the past leave it. A change in the past ends the future there: states
 // and changes after it become the other future, which exchange_futures swaps back. To play
@@ -75,7 +75,7 @@ class RunRecord {
   const SavedState<D>* after(double time, std::uint64_t collisions) const;
   /// The times of all states where the run stopped by itself.
   std::vector<double> stops() const;
-  /// Approximate work between two successive states; states at changes of laws are closer.
+  /// Approximate work between two successive states; some are closer.
   std::uint64_t spacing() const { return spacing_; }
   /// Size of all states in memory.
   std::size_t bytes() const { return bytes_; }

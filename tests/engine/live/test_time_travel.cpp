@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <map>
 #include <random>
@@ -288,6 +289,27 @@ TEST_CASE("Time travel: sums and rotations at a time are those of the first pass
   for (std::size_t i = 0; i < 40; ++i) {
     CHECK(again.snapshot.orientations[i].angularDistance(first.snapshot.orientations[i]) < 1e-6);
   }
+}
+
+// A dragged slider makes many changes, and a copy of the state at each would take time and memory.
+TEST_CASE("Time travel: changes in succession add few states, and jumps make them again") {
+  const Scene scene = driven_disks();
+  const auto run = watched_run(scene, kTravelSeed);
+  run_to(*run, 20.0);
+  const std::size_t before = frame_of(*run).record_bytes;
+  for (int k = 0; k < 30; ++k) {
+    run->change({{"particles.restitution", fmt::format("{}", 0.9 - 0.01 * k)}}, 0.0);
+    run_to(*run, 20.0 + 0.01 * (k + 1));
+  }
+  CHECK(frame_of(*run).record_bytes < before + 3 * 120 * sizeof(Flight<2>));
+  const std::uint64_t hash = hash_of(*run);
+  const Scene changed = with_changes_of(scene, *run);
+  CHECK(changed.changes.size() == 32);
+  go_to(*run, 20.15);
+  CHECK(hash_of(*run) == fresh_hash<2>(changed, 20.15));
+  CHECK(frame_of(*run).scene->particles.restitution == doctest::Approx(0.76));
+  go_to(*run, run->head());
+  CHECK(hash_of(*run) == hash);
 }
 
 TEST_CASE("Time travel: a run that stopped by itself returns to its stop, and continues after it") {
