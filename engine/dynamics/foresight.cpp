@@ -349,20 +349,19 @@ double Foresight<D>::speed_scale(const ParticleStates<D>& gas) const {
   return scale;
 }
 
-// The end of the next window. A gas that is colder than its drive has few collisions now, and may
-// have many soon.
+// The length of a full window now. A gas that is colder than its drive has few collisions now, and
+// may have many soon.
 template <int D>
-double Foresight<D>::choose_end(const ParticleStates<D>& gas, double horizon, double most) const {
+double Foresight<D>::full_span(const ParticleStates<D>& gas) const {
   constexpr double kFirst = 0.1;  // diameters
   const double speed = speed_scale(gas);
   // A gas at rest has no scale of time: no window.
-  if (!(speed > 0.0)) return end_;
+  if (!(speed > 0.0)) return 0.0;
   const auto count = static_cast<double>(gas.particles.size());
   const double free_path = model_.box.prod() / (count * std::pow(model_.diameter, D - 1));
   double span = std::max(kFirst * model_.diameter, sizes_.collisions * free_path) / speed;
-  if (rate_ > 0.0) span = std::min(span, std::min(typical_window(), most) / rate_);
-  span = std::min(span, span_ > 0.0 ? 2.0 * span_ : kFirst * model_.diameter / speed);
-  return std::min(horizon, end_ + span);
+  if (rate_ > 0.0) span = std::min(span, typical_window() / rate_);
+  return std::min(span, span_ > 0.0 ? 2.0 * span_ : kFirst * model_.diameter / speed);
 }
 
 // A round with more collisions, copies included, fails. A window of the expected length has a
@@ -394,10 +393,17 @@ void Foresight<D>::fit_halo() {
 
 // Begins a window. Returns whether it has a length.
 template <int D>
-bool Foresight<D>::begin_window(const ParticleStates<D>& gas, double end, bool keep_events) {
+bool Foresight<D>::begin_window(const ParticleStates<D>& gas, double horizon, double most,
+                                bool keep_events) {
+  const double full = end_ + full_span(gas);
+  const double useful = rate_ > 0.0 ? std::min(horizon, end_ + most / rate_) : horizon;
+  const double end = std::min(full, useful);
   if (!(end > end_)) return false;
   sort_into_blocks(gas);
-  window_ = {.end = end, .keep_events = keep_events, .todo = std::vector<std::size_t>(tiles())};
+  window_ = {.end = end,
+             .is_cut = end < full,
+             .keep_events = keep_events,
+             .todo = std::vector<std::size_t>(tiles())};
   for (std::size_t k = 0; k < tiles(); ++k) {
     window_->todo[k] = k;
     tiles_[k].halo = halo_;
@@ -421,7 +427,7 @@ void Foresight<D>::certify_all(Window& window) {
     window.todo.push_back(k);
     tile.halo = std::max(kGrowth * tile.halo, tile.halo + 1.2 * tile.lack);
   }
-  if (window.rounds++ == 0) fit_halo();
+  if (window.rounds++ == 0 && !window.is_cut) fit_halo();
 }
 
 // Runs the tiles of the window until all have a certificate.
@@ -463,23 +469,23 @@ typename Foresight<D>::Outcome Foresight<D>::run_window(const ParticleStates<D>&
                                                         double horizon, double most,
                                                         bool keep_events, const StopRequest& stop) {
   const bool goes_on = window_ && window_->keep_events == keep_events && window_->end <= horizon;
-  if (!goes_on && !begin_window(gas, choose_end(gas, horizon, most), keep_events))
-    return Outcome::Failed;
+  if (!goes_on && !begin_window(gas, horizon, most, keep_events)) return Outcome::Failed;
   const Outcome outcome = run_rounds(gas, stop);
   if (outcome == Outcome::Failed) window_.reset();
   return outcome;
 }
 
-// Ends a window whose tiles all have a certificate, and notes its rate of collisions.
+// Ends a window whose tiles all have a certificate, and notes its rate of collisions. After a cut
+// window the next one may be full again.
 template <int D>
 void Foresight<D>::note_window() {
-  const double end = window_->end;
+  const double end = window_->end, span = end - end_;
+  span_ = window_->is_cut ? std::max(span_, span) : span;
   window_.reset();
   std::uint64_t found = 0;
   for (const Tile& tile : tiles_) found += tile.pair_collisions + tile.wall_collisions;
   work_.own += found;
-  span_ = end - end_;
-  rate_ = std::max(static_cast<double>(found) / span_, 0.5 * rate_);
+  rate_ = std::max(static_cast<double>(found) / span, 0.5 * rate_);
   end_ = end;
   fresh_ = false;
 }

@@ -115,6 +115,7 @@ class Foresight {
   // A window whose tiles do not all have a certificate yet.
   struct Window {
     double end;
+    bool is_cut;  // whether the caller has use for a part of a full window only
     bool keep_events;
     int rounds = 0;                 // that are complete
     std::vector<std::size_t> todo;  // tiles that the present round has not run yet
@@ -135,12 +136,12 @@ class Foresight {
   };
 
   IntVec<D> count_tiles(int threads) const;
-  double choose_end(const ParticleStates<D>& gas, double horizon, double most) const;
+  double full_span(const ParticleStates<D>& gas) const;
   double speed_scale(const ParticleStates<D>& gas) const;
   double most_collisions() const;
   Outcome run_window(const ParticleStates<D>& gas, double horizon, double most, bool keep_events,
                      const StopRequest& stop);
-  bool begin_window(const ParticleStates<D>& gas, double end, bool keep_events);
+  bool begin_window(const ParticleStates<D>& gas, double horizon, double most, bool keep_events);
   Outcome run_rounds(const ParticleStates<D>& gas, const StopRequest& stop);
   void certify_all(Window& window);
   void sort_into_blocks(const ParticleStates<D>& gas);
@@ -174,7 +175,8 @@ class Foresight {
   std::optional<Window> window_;                 // that a stop request has interrupted
   bool fresh_ = true;                            // no window since restart()
   double rate_ = 0.0;                            // collisions per time; 0: unknown
-  double span_ = 0.0;  // of the last window, or a small part of one that was too long; 0: unknown
+  double span_ =
+      0.0;  // of the last full window, or a small part of one that was too long; 0: unknown
   ForeseenEvents<D> events_;
   Work work_;
 };

@@ -354,8 +354,10 @@ TEST_CASE("Foresight: a window continues after a request to stop") {
 }
 
 TEST_CASE("Foresight: few threads run a gas in tiles only if it is not watched") {
-  CHECK(watched_runs_in_tiles(4));
-  CHECK(!watched_runs_in_tiles(3));
+  CHECK(watched_runs_in_tiles(100'000, 4));
+  CHECK(!watched_runs_in_tiles(100'000, 3));
+  CHECK(watched_runs_in_tiles(250'000, 2));
+  CHECK(!watched_runs_in_tiles(10'000'000, 1));
   Scene scene = parse_scene("box.size = [700, 600]\nparticles.count = 200_000", "a scene");
   const State<2> start = start_state<2>(scene, kForesightSeed);
   const auto tiles = [&](int threads, bool observed) {
@@ -389,6 +391,22 @@ TEST_CASE("Foresight: gases run in tiles where tiles pay") {
     small.use_threads(threads, {.particles = 25.0, .collisions = 2.0, .halo = 10.0});
     CHECK(!small.foresight());
   }
+}
+
+// A kick cuts the window before it. That is no measure of the next one.
+TEST_CASE("Foresight: after a cut window the next one is full") {
+  Scene scene = parse_scene("box.size = [200, 190]\nparticles.count = 20_000", "a scene");
+  scene.bulk_drive = BulkDrive{.interval = 0.5, .kick_speed = 0.001};
+  Simulation<2> gas(model_of<2>(scene, kForesightSeed), start_state<2>(scene, kForesightSeed));
+  gas.use_threads(2, {.particles = 2500.0, .collisions = 2.0, .halo = 9.0});
+  gas.run_until(2.0);
+  const std::uint64_t windows = gas.foresight()->work().windows;
+  const std::uint64_t collisions = gas.counts().collisions();
+  gas.run_until(10.0);
+  CHECK(gas.tiles() > 1);
+  const double full = static_cast<double>(gas.counts().collisions() - collisions) / 20'000.0;
+  const double found = static_cast<double>(gas.foresight()->work().windows - windows);
+  CHECK(found < full + 16.0);
 }
 
 TEST_CASE("Certificate: each term counts") {
