@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 #include <span>
+#include <string_view>
 
 #include "app/bench/accuracy_output.h"
 #include "app/bench/pictures.h"
@@ -14,6 +15,7 @@
 #include "engine/error.h"
 #include "engine/scene/scene_file.h"
 #include "engine/system/write_file.h"
+#include "render/output/movie.h"
 
 namespace clatter {
 
@@ -143,6 +145,10 @@ int bench_accuracy(const AccuracyBench& bench) {
   std::vector<PictureTable> pictures;
   for (const char* dial : kPictureDials) {
     if (!asked_for(dial, bench)) continue;
+    if (std::string_view(dial) == "encoding" && !has_film_encoder()) {
+      std::fputs("no encodings: they need ffmpeg (apt install ffmpeg)\n", stderr);
+      continue;
+    }
     pictures.push_back(measure_pictures(dial, scene, effort.burn_in));
     print(accuracy_text(pictures.back()));
   }

@@ -49,10 +49,11 @@ std::vector<std::string> cells_of(const AccuracyRow& row) {
 
 std::vector<std::string> cells_of(const PictureRow& row) {
   return {row.setting + (row.dominated ? " *" : ""), number("{:.3g}", 1e3 * row.cpu_seconds),
-          number("{:.4f}", row.ssim), number("{:.2g}", row.centre_error)};
+          number("{:.4f}", row.ssim), number("{:.2g}", row.centre_error),
+          number("{:.0f}", 1e-3 * row.bytes)};
 }
 
-const std::vector<std::string> kPictureHeadings = {"setting", "ms", "SSIM", "centre px"};
+const std::vector<std::string> kPictureHeadings = {"setting", "ms", "SSIM", "centre px", "kB/s"};
 
 std::vector<std::string> headings() {
   std::vector<std::string> names = {"setting", "ms/t", "Mev/s", "kB"};
@@ -73,6 +74,17 @@ template <class Row>
 Grid grid_of(const std::vector<Row>& rows, const std::vector<std::string>& heads) {
   Grid grid = {heads};
   for (const Row& row : rows) grid.push_back(cells_of(row));
+  return grid;
+}
+
+// Without the columns that no row has.
+Grid grid_of(const PictureTable& table) {
+  Grid grid = grid_of(table.rows, kPictureHeadings);
+  for (std::size_t k = kPictureHeadings.size(); k-- > 0;) {
+    const auto is_absent = [k](const PictureRow& row) { return cells_of(row)[k] == "-"; };
+    if (!std::ranges::all_of(table.rows, is_absent)) continue;
+    for (auto& line : grid) line.erase(line.begin() + static_cast<std::ptrdiff_t>(k));
+  }
   return grid;
 }
 
@@ -122,7 +134,8 @@ std::string accuracy_statement(const AccuracyBench& bench) {
          "el.: collisions that t_c made elastic; error: sqrt(bias² + variance per CPU second), "
          "root mean square over those six; SSIM: similarity to a picture of 4 x 4 samples per "
          "pixel; centre px: distance between a drawn disk and the disk, for frame rates half a "
-         "frame later; *: another setting of the dial has both a lower cost and a lower error, by "
+         "frame later; kB/s: of a film; *: another setting of the dial has both a lower cost and a "
+         "lower error, by "
          "at least one tenth.\n";
 }
 
@@ -131,7 +144,7 @@ std::string accuracy_text(const AccuracyTable& table) {
 }
 
 std::string accuracy_text(const PictureTable& table) {
-  return text_of(table.title, grid_of(table.rows, kPictureHeadings));
+  return text_of(table.title, grid_of(table));
 }
 
 std::string accuracy_csv(const std::vector<AccuracyTable>& tables,
@@ -139,7 +152,7 @@ std::string accuracy_csv(const std::vector<AccuracyTable>& tables,
   std::string text = "dial,setting,value,cpu_seconds_per_time,events_per_cpu_second,bytes";
   for (const std::string name : kNames) text += "," + name + "_bias," + name + "_bias_error";
   text += ",deepest_overlap,elasticised_share,error,cpu_seconds_per_picture,ssim";
-  text += ",centre_error_pixels,dominated\n";
+  text += ",centre_error_pixels,bytes_per_second,dominated\n";
   for (const AccuracyTable& table : tables) {
     for (const AccuracyRow& row : table.rows) {
       text += table.dial + "," + row.setting;
@@ -149,7 +162,7 @@ std::string accuracy_csv(const std::vector<AccuracyTable>& tables,
       for (const Estimate& bias : row.comparison.bias) {
         text += fmt::format(",{:.6g},{:.6g}", bias.mean, bias.standard_error);
       }
-      text += fmt::format(",{:.6g},{:.6g},{:.6g},nan,nan,nan,{:d}\n", row.deepest_overlap,
+      text += fmt::format(",{:.6g},{:.6g},{:.6g},nan,nan,nan,nan,{:d}\n", row.deepest_overlap,
                           row.elasticised_share, row.comparison.error, row.dominated);
     }
   }
@@ -157,8 +170,8 @@ std::string accuracy_csv(const std::vector<AccuracyTable>& tables,
     for (const PictureRow& row : table.rows) {
       text += table.dial + "," + row.setting + fmt::format(",{:.6g}", row.value);
       for (int k = 0; k < 2 * kCompared + 6; ++k) text += ",nan";
-      text += fmt::format(",{:.6g},{:.6g},{:.6g},{:d}\n", row.cpu_seconds, row.ssim,
-                          row.centre_error, row.dominated);
+      text += fmt::format(",{:.6g},{:.6g},{:.6g},{:.6g},{:d}\n", row.cpu_seconds, row.ssim,
+                          row.centre_error, row.bytes, row.dominated);
     }
   }
   return text;
@@ -200,6 +213,7 @@ std::string accuracy_json(const AccuracyBench& bench, const std::vector<Accuracy
                       {"cpu_seconds_per_picture", row.cpu_seconds},
                       {"ssim", row.ssim},
                       {"centre_error_pixels", row.centre_error},
+                      {"bytes_per_second", row.bytes},
                       {"dominated", row.dominated}});
     }
     json["dials"].push_back({{"dial", table.dial}, {"title", table.title}, {"settings", rows}});
@@ -216,7 +230,7 @@ std::string with_accuracy_tables(const AccuracyBench& bench,
     text += markdown_of(table.title, grid_of(table.rows, headings()));
   }
   for (const PictureTable& table : pictures) {
-    text += markdown_of(table.title, grid_of(table.rows, kPictureHeadings));
+    text += markdown_of(table.title, grid_of(table));
   }
   replace_part(page, bench.markdown, "tables", text + "\n");
   return page;

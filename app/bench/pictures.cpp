@@ -1,16 +1,27 @@
 #include "app/bench/pictures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
 #include <numbers>
+#include <optional>
 
+#include "engine/error.h"
 #include "engine/picture/snapshot.h"
+#include "engine/picture/view_observers.h"
 #include "engine/run/scheduled_run.h"
+#include "engine/system/child_process.h"
+#include "engine/system/platform.h"
 #include "engine/system/usage.h"
 #include "render/context/context.h"
 #include "render/gl/canvas.h"
 #include "render/layers/renderer.h"
 #include "render/output/image.h"
+#include "render/output/movie.h"
 
 namespace clatter {
 
@@ -133,6 +144,86 @@ PictureTable sizes(const Gl& gl, const Snapshot& snapshot) {
   return table;
 }
 
+// The pictures of a second of film, as a film of the scene has them.
+std::vector<Image> film_pictures(const Gl& gl, const Scene& scene, Simulation<2>& simulation,
+                                 int count) {
+  ViewObservers<2> shown(simulation, scene.view, 0.0);
+  const Canvas canvas(gl, kLarge);
+  Renderer renderer(gl, 1);
+  std::vector<Image> pictures;
+  std::optional<Camera> camera;
+  const double start = simulation.time();
+  for (int k = 0; k < count; ++k) {
+    simulation.run_until(start + k * scene.view.speed / count);
+    Snapshot snapshot = snapshot_of(simulation);
+    shown.publish(snapshot);
+    const OverlayText text{scene.title, scene.caption};
+    if (!camera) camera = renderer.fit(snapshot, kLarge, scene.view, text);
+    canvas.bind();
+    renderer.draw(snapshot, *camera, kLarge, scene.view, text);
+    pictures.push_back(canvas.read());
+  }
+  return pictures;
+}
+
+// The pictures of a film.
+std::vector<Image> decoded(const std::filesystem::path& film, Size size) {
+  const std::filesystem::path raw = film.string() + ".rgba";
+  ChildProcess decoder({"ffmpeg", "-v", "error", "-nostdin", "-y", "-i", film.string(), "-vf",
+                        "scale=in_color_matrix=bt709:in_range=tv", "-f", "rawvideo", "-pix_fmt",
+                        "rgba", raw.string()});
+  if (!decoder.wait()) throw RunError("ffmpeg cannot read its film: " + decoder.last_words());
+  std::ifstream file(raw, std::ios::binary);
+  std::vector<Image> pictures;
+  Image picture{size, std::vector<unsigned char>(4 * static_cast<std::size_t>(size.width) *
+                                                 static_cast<std::size_t>(size.height))};
+  while (file.read(reinterpret_cast<char*>(picture.rgba.data()),
+                   static_cast<std::streamsize>(picture.rgba.size()))) {
+    pictures.push_back(picture);
+  }
+  std::filesystem::remove(raw);
+  return pictures;
+}
+
+// The mean similarity of every tenth picture.
+double similarity(const std::vector<Image>& pictures, const std::vector<Image>& originals) {
+  constexpr std::size_t kEach = 10;
+  double sum = 0.0, count = 0.0;
+  for (std::size_t k = 0; k < std::min(pictures.size(), originals.size()); k += kEach) {
+    sum += structural_similarity(pictures[k], originals[k]);
+    ++count;
+  }
+  return sum / count;
+}
+
+PictureTable encodings(const Gl& gl, const Scene& scene, Simulation<2>& simulation) {
+  constexpr int kPictures = 60;
+  PictureTable table{"encoding", "encoding of a film, 1920x1080, 60 frames a second", {}};
+  const std::vector<Image> originals = film_pictures(gl, scene, simulation, kPictures);
+  for (const Encoding encoding : {Encoding::Small, Encoding::Balanced, Encoding::Fast}) {
+    const std::filesystem::path path = std::filesystem::temp_directory_path() /
+                                       fmt::format("clatter-bench-{}.mp4", process_number());
+    SinkOptions options;
+    options.size = kLarge;
+    options.fps = kPictures;
+    options.encoding = encoding;
+    const double began = child_cpu_seconds();
+    Movie movie(path, options);
+    for (const Image& picture : originals) movie.add(picture, {});
+    movie.finish(Ending::Whole);
+    const double seconds = child_cpu_seconds() - began;
+    const auto bytes = static_cast<double>(std::filesystem::file_size(path));
+    table.rows.push_back({.setting = name_of(encoding),
+                          .value = static_cast<double>(encoding),
+                          .cpu_seconds = seconds / kPictures,
+                          .ssim = similarity(decoded(path, kLarge), originals),
+                          .centre_error = std::numeric_limits<double>::quiet_NaN(),
+                          .bytes = bytes});
+    std::filesystem::remove(path);
+  }
+  return table;
+}
+
 // Each frame stays until the next. The shown gas is on average half a frame old.
 PictureTable frame_rates(const Gl& gl, Simulation<2>& simulation, double speed) {
   PictureTable table{
@@ -182,6 +273,8 @@ PictureTable measure_pictures(const std::string& dial, const Scene& scene, doubl
     table = antialiasing(context->gl(), snapshot_of(*simulation));
   } else if (dial == kPictureDials[1]) {
     table = sizes(context->gl(), snapshot_of(*simulation));
+  } else if (dial == kPictureDials[3]) {
+    table = encodings(context->gl(), scene, *simulation);
   } else {
     table = frame_rates(context->gl(), *simulation, scene.view.speed);
   }

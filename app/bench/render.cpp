@@ -16,7 +16,6 @@
 #include "engine/physics/theory.h"
 #include "engine/picture/live_field.h"
 #include "engine/picture/snapshot.h"
-#include "engine/system/child_process.h"
 #include "engine/system/usage.h"
 #include "engine/system/write_file.h"
 #include "render/context/context.h"
@@ -24,7 +23,6 @@
 #include "render/gl/canvas.h"
 #include "render/layers/renderer.h"
 #include "render/output/movie.h"
-#include "render/output/work_queue.h"
 
 namespace clatter {
 
@@ -45,7 +43,7 @@ constexpr const char* particles_of(int dimension) {
 std::vector<const char*> stages_of(int dimension, bool with_films) {
   std::vector<const char*> stages = {"simulate", "snapshot", "draw", particles_of(dimension),
                                      "heatmap",  "overlay",  "read", "png"};
-  if (with_films) stages.insert(stages.end(), {"x264", "veryfast"});
+  if (with_films) stages.insert(stages.end(), {"fast", "balanced", "small"});
   return stages;
 }
 
@@ -85,53 +83,13 @@ std::filesystem::path temporary_file(const char* extension) {
          ("clatter-bench-" + std::to_string(process_number()) + extension);
 }
 
-bool has_ffmpeg() {
-  try {
-    return ChildProcess({"ffmpeg", "-version"}).wait();
-  } catch (const RunError&) {
-    return false;
-  }
-}
-
-// The CPU milliseconds of an ffmpeg process.
-double ffmpeg(const std::vector<std::string>& arguments, std::span<const Image> images = {}) {
-  const double before = 1e3 * child_cpu_seconds();
-  std::vector<std::string> command = {"ffmpeg", "-v", "error", "-nostdin", "-y", "-f", "rawvideo"};
-  command.insert(command.end(), arguments.begin(), arguments.end());
-  ChildProcess process(command);
-  // This thread may write to an ffmpeg process that has ended.
-  WorkQueue queue(1, 1);
-  for (const Image& image : images) queue.add([&] { process.write(image.rgba); });
-  queue.finish();
-  if (!process.wait()) throw RunError("ffmpeg failed: " + process.last_words());
-  return 1e3 * child_cpu_seconds() - before;
-}
-
-// The CPU milliseconds of x264 per frame, with the preset "veryfast". The pictures have the pixel
-// format of the encoder, and the start-up time is subtracted.
-double encode_veryfast(std::span<const Image> images) {
-  const std::filesystem::path colours = temporary_file(".yuv");
-  const Size size = images.front().size;
-  ffmpeg({"-pix_fmt", "rgba", "-video_size", size_text(size), "-i", "pipe:0", "-f", "rawvideo",
-          "-pix_fmt", "yuv420p", colours.string()},
-         images);
-  const auto encode = [&](std::size_t frames) {
-    return ffmpeg({"-pix_fmt", "yuv420p", "-video_size", size_text(size), "-framerate",
-                   std::to_string(kFps), "-i", colours.string(), "-frames:v",
-                   std::to_string(frames), "-c:v", "libx264", "-preset", "veryfast", "-f", "null",
-                   "-"});
-  };
-  const double all = encode(images.size()), first = encode(1);
-  std::filesystem::remove(colours);
-  return (all - first) / static_cast<double>(images.size() - 1);
-}
-
 // The CPU milliseconds of the encoder for one film.
-double encode(std::vector<Image> images) {
+double encode(std::vector<Image> images, Encoding encoding) {
   const std::filesystem::path film = temporary_file(".mp4");
   const double before = 1e3 * child_cpu_seconds();
   SinkOptions options;
   options.size = images.front().size;
+  options.encoding = encoding;
   Movie movie(film, options);
   for (Image& image : images) movie.add(std::move(image), {});
   movie.finish(Ending::Whole);
@@ -177,8 +135,9 @@ class Filming {
     for (int k = 1; k <= kFrames; ++k) images.push_back(frame(start + k / kFps));
     for (const Image& image : images) spend(times_, "png", gl_, [&] { encode_png(image); });
     if (with_films) {
-      times_["veryfast"] = encode_veryfast(images);
-      times_["x264"] = encode(std::move(images)) / kFrames;
+      times_["fast"] = encode(images, Encoding::Fast) / kFrames;
+      times_["balanced"] = encode(images, Encoding::Balanced) / kFrames;
+      times_["small"] = encode(std::move(images), Encoding::Small) / kFrames;
     }
     return times_;
   }
@@ -273,15 +232,14 @@ int bench_render(const std::string& json, int count, int dimension) {
       count > 0 ? std::vector{count} : std::vector{1'000, 10'000, 100'000, 1'000'000};
   const auto context = open_context(Backend::Auto);
   const char* particles = particles_of(dimension);
-  const bool with_films = has_ffmpeg();
+  const bool with_films = has_film_encoder();
   std::fprintf(
       stderr,
       "elastic %s at phi = %g over a heatmap, %g frames per time unit, %s\n"
       "CPU milliseconds per frame, all threads; draw: the whole picture, with its parts %s, "
       "heatmap and overlay;\n%s\n",
       particles, fraction_of(dimension), kFps, context->description().c_str(), particles,
-      with_films ? "x264: the encoder of films; veryfast: x264 with this preset and pictures in "
-                   "yuv420p"
+      with_films ? "fast, balanced, small: the encodings of films"
                  : "without the columns of the encoder, which need ffmpeg (apt install ffmpeg)");
   print(fmt::sprintf("%8s %10s", "N", "size"));
   for (const char* stage : stages_of(dimension, with_films)) print(fmt::sprintf(" %8s", stage));

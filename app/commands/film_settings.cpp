@@ -76,6 +76,7 @@ FilmState new_film(const RenderOptions& options, const View& view, double start)
   film.samples = options.supersample.value_or(1);
   film.shutter = options.shutter.value_or(0.0);
   film.transparent = options.transparent;
+  film.encoding = options.encoding.value_or(Encoding::Balanced);
   film.overlay = view.overlay && !options.no_overlay;
   film.picture = options.one_picture();
   if (options.sound) film.sound.emplace();
@@ -142,6 +143,8 @@ FilmState continued_film(const RenderOptions& options, FilmState film) {
   keep(options.speed, times.speed, "--speed", number_text);
   keep(options.supersample, film.samples, "--supersample", [](int n) { return std::to_string(n); });
   keep(options.shutter, film.shutter, "--shutter", number_text);
+  keep(options.encoding, film.encoding, "--encoding",
+       [](Encoding encoding) { return name_of(encoding); });
   if (options.transparent && !film.transparent) refuse_change("--transparent", "a background");
   if (options.no_overlay && film.overlay) refuse_change("--no-overlay", "an overlay");
   if (options.sound && !film.sound) refuse_change("--sound", "no sound");
@@ -227,6 +230,12 @@ void require_format(const RenderOptions& options, const FilmState& film) {
   }
   if (film.sound) require_sound(options, film.times);
   const std::string extension = options.extension();
+  if (options.encoding && !Movie::has_encodings(extension)) {
+    throw UserError({"--encoding", 0, 0},
+                    extension.empty() ? "a folder of pictures has no encoding"
+                                      : "the format " + extension + " has one encoding",
+                    "write a film .mp4 or .webm, or omit the flag");
+  }
   if (!film.transparent || extension.empty() || extension == ".png") return;
   if (Movie::has_alpha(extension)) return;
   throw UserError({"--transparent", 0, 0}, "a film " + extension + " cannot be transparent",

@@ -34,6 +34,7 @@ struct RenderOptions {
   std::optional<std::string> frames;  ///< absent: all
   std::optional<int> supersample;     ///< absent: 1
   std::optional<double> shutter;      ///< absent: 0
+  std::optional<Encoding> encoding;   ///< absent: balanced
   std::optional<int> threads;         ///< of a large gas and of encoding
   bool no_overlay = false;
   bool transparent = false;

@@ -21,6 +21,13 @@ static void visit(Archive& io, PaceKey& key) {
 }
 
 template <class Archive>
+static void visit(Archive& io, Encoding& encoding) {
+  auto number = static_cast<std::uint32_t>(encoding);
+  io(number);
+  encoding = static_cast<Encoding>(number);
+}
+
+template <class Archive>
 static void visit(Archive& io, FrameTimes& times) {
   auto& [from, speed, fps, count, pace] = times;
   io(from, speed, fps, count, pace);
@@ -56,8 +63,8 @@ static bool makes_sense(const FilmState& state) {
   return times.count >= 1 && times.count <= kMostFrames && state.next >= 0 &&
          state.next <= times.count && times.fps >= 1.0 && times.fps <= kMostFps &&
          times.speed > 0.0 && std::isfinite(times.speed) && std::isfinite(times.from) &&
-         state.samples >= 1 && state.samples <= kMostSamples &&
-         std::min(state.size.width, state.size.height) >= 1 &&
+         state.samples >= 1 && state.samples <= kMostSamples && state.encoding >= Encoding::Fast &&
+         state.encoding <= Encoding::Small && std::min(state.size.width, state.size.height) >= 1 &&
          std::max(state.size.width, state.size.height) <= kLongestSide && state.shutter >= 0.0 &&
          state.shutter <= 1.0 && state.begin.value_or(0) >= 0 &&
          state.begin.value_or(0) <= times.count && fits(state.sound, state.next, times.fps);
@@ -65,10 +72,10 @@ static bool makes_sense(const FilmState& state) {
 
 template <class Archive>
 static void visit(Archive& io, FilmState& state) {
-  auto& [times, size, samples, shutter, transparent, overlay, picture, sound, next, begin, shown,
-         plots, checksums, notes, cells, companions] = state;
-  io(times, size, samples, shutter, transparent, overlay, picture, sound, next, begin, shown, plots,
-     checksums, notes, cells, companions);
+  auto& [times, size, samples, shutter, transparent, encoding, overlay, picture, sound, next, begin,
+         shown, plots, checksums, notes, cells, companions] = state;
+  io(times, size, samples, shutter, transparent, encoding, overlay, picture, sound, next, begin,
+     shown, plots, checksums, notes, cells, companions);
   io.require(makes_sense(state));
 }
 

@@ -56,6 +56,7 @@ struct FilmState {
   int samples = 1;                 ///< samples per pixel along each axis
   double shutter = 0.0;            ///< exposure as a share of the time between two frames
   bool transparent = false;        ///< without a background
+  Encoding encoding = Encoding::Balanced;  ///< of a film in a file
   bool overlay = true;             ///< whether pictures have text
   bool picture = false;            ///< one picture, at times.from; not a film
   std::optional<FilmSound> sound;  ///< absent: a silent film

@@ -53,6 +53,7 @@ std::string film_command(const FilmJob& job) {
       size_text(film.size), film.samples, film.shutter, job.threads, name_of(job.backend));
   if (!film.overlay) words += " --no-overlay";
   if (film.transparent) words += " --transparent";
+  if (film.encoding != Encoding::Balanced) words += " --encoding=" + name_of(film.encoding);
   return words;
 }
 

@@ -15,7 +15,7 @@ namespace clatter {
 // A file consists of the magic, the head, the body, and the CRC-32 of all bytes before it.
 static constexpr std::string_view kMagic = "clatter checkpoint\r\n\x1a\n";
 // Raise it when a struct in the checkpoint changes.
-static constexpr std::uint32_t kVersion = 35;
+static constexpr std::uint32_t kVersion = 36;
 
 // Program and command come first in every version, so that the error for another version can name
 // them.

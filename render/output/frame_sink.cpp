@@ -1,10 +1,17 @@
 #include "render/output/frame_sink.h"
 
+#include <array>
+
 #include "engine/error.h"
 #include "render/output/movie.h"
 #include "render/output/png_sink.h"
 
 namespace clatter {
+
+std::string name_of(Encoding encoding) {
+  constexpr std::array kNames = {"fast", "balanced", "small"};
+  return kNames[static_cast<std::size_t>(encoding)];
+}
 
 void require_folder_format(const std::filesystem::path& path) {
   std::error_code ignored;

@@ -20,6 +20,13 @@ namespace clatter {
 /// End of a film: complete, or interrupted and open for a restart.
 enum class Ending { Whole, Cut };
 
+/// The trade of a film between CPU time and bytes, at nearly the same quality. `clatter bench
+/// accuracy` measures it.
+enum class Encoding { Fast, Balanced, Small };
+
+/// Its name on the command line.
+std::string name_of(Encoding encoding);
+
 /// Output for finished pictures.
 class FrameSink {
  public:
@@ -66,6 +73,7 @@ struct SinkOptions {
   std::uint32_t sound_checksum = 0;  ///< of these samples
   StopRequest stop = {};             ///< once made, an encoder that hangs is an error
   bool transparent = false;          ///< whether a film keeps the alpha of the pictures
+  Encoding encoding = Encoding::Balanced;  ///< of formats that have a choice
 };
 
 /// A complete piece of a restarted film, or an earlier picture of a folder, differs from its

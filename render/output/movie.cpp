@@ -52,6 +52,14 @@ bool lock(FileDescriptor& folder) {
 
 }  // namespace
 
+bool has_film_encoder() {
+  try {
+    return ChildProcess({"ffmpeg", "-version"}).wait();
+  } catch (const RunError&) {
+    return false;
+  }
+}
+
 std::filesystem::path pieces_folder(const std::filesystem::path& path) {
   return target_of(path).string() + ".part";
 }
@@ -150,7 +158,11 @@ bool Movie::knows(const std::string& extension) {
 }
 
 bool Movie::has_alpha(const std::string& extension) {
-  return knows(extension) && !find_movie_format(extension)->transparent.empty();
+  return knows(extension) && !find_movie_format(extension)->clear_pixels.empty();
+}
+
+bool Movie::has_encodings(const std::string& extension) {
+  return knows(extension) && find_movie_format(extension)->has_encodings();
 }
 
 std::filesystem::path Movie::piece_path(long first) const {

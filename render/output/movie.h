@@ -12,6 +12,9 @@
 
 namespace clatter {
 
+/// Whether the encoder of films starts.
+bool has_film_encoder();
+
 /// The folder for the pieces of a film at `path`: FILE.part beside the file, or beside the target
 /// of a link.
 std::filesystem::path pieces_folder(const std::filesystem::path& path);
@@ -34,6 +37,8 @@ class Movie final : public FrameSink {
   static bool knows(const std::string& extension);
   /// True for the extensions of films that can be transparent.
   static bool has_alpha(const std::string& extension);
+  /// True for the extensions of films with a choice of the Encoding.
+  static bool has_encodings(const std::string& extension);
 
   void add(Image image, std::vector<PngText> notes) override;
   void add_sound(std::span<const StereoSample> samples) override { sound_->append(samples); }

@@ -12,7 +12,7 @@ namespace {
 const std::string kEvenSides = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=0x101418,";
 const std::string kEvenClearSides = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=black@0,";
 
-using Arguments = std::vector<std::string>;
+using Arguments = MovieFormat::Arguments;
 
 Arguments with(Arguments all, const Arguments& more) {
   all.insert(all.end(), more.begin(), more.end());
@@ -21,19 +21,40 @@ Arguments with(Arguments all, const Arguments& more) {
 
 // Converts explicitly: by default ffmpeg converts to BT.601, and players assume BT.709. The encoder
 // of ProRes takes the names of the colours from the pictures.
-Arguments video(const std::string& sides, const std::string& pixels, const Arguments& codec,
-                const std::string& matrix = "bt709") {
-  return with({"-vf",
-               sides + "scale=out_color_matrix=" + matrix + ":out_range=tv,format=" + pixels +
-                   ",setparams=colorspace=" + matrix + ":color_trc=bt709:color_primaries=bt709",
-               "-colorspace", matrix, "-color_trc", "bt709", "-color_primaries", "bt709",
-               "-color_range", "tv"},
-              codec);
+Arguments converted(const std::string& sides, const std::string& pixels,
+                    const std::string& matrix = "bt709") {
+  return {"-vf",
+          sides + "scale=out_color_matrix=" + matrix + ":out_range=tv,format=" + pixels +
+              ",setparams=colorspace=" + matrix + ":color_trc=bt709:color_primaries=bt709",
+          "-colorspace",
+          matrix,
+          "-color_trc",
+          "bt709",
+          "-color_primaries",
+          "bt709",
+          "-color_range",
+          "tv"};
 }
 
-const Arguments kVp9 = {"-c:v",    "libvpx-vp9", "-crf",          "24",        "-b:v",
-                        "0",       "-deadline",  "realtime",      "-cpu-used", "5",
-                        "-row-mt", "1",          "-tile-columns", "2"};
+// Fragments of one second of film play even after a crash. The frames depend on timing if x264
+// looks ahead in a thread of its own: about 1 of 100 encodings of small pictures differed, and 0 of
+// 1600 without this thread.
+Arguments x264(const std::string& preset, const std::string& quality,
+               const std::string& parameters = "") {
+  return {"-c:v",           "libx264",
+          "-preset",        preset,
+          "-crf",           quality,
+          "-x264-params",   "sync-lookahead=0" + parameters,
+          "-movflags",      "+empty_moov+default_base_moof",
+          "-frag_duration", "1000000"};
+}
+
+Arguments vp9(const std::string& deadline, const std::string& speed, const std::string& quality) {
+  return {"-c:v",    "libvpx-vp9", "-crf",          quality,     "-b:v",
+          "0",       "-deadline",  deadline,        "-cpu-used", speed,
+          "-row-mt", "1",          "-tile-columns", "2"};
+}
+
 const Arguments kProRes = {"-c:v",           "prores_ks",
                            "-profile:v",     "4444",
                            "-alpha_bits",    "16",
@@ -41,47 +62,44 @@ const Arguments kProRes = {"-c:v",           "prores_ks",
                            "-movflags",      "+empty_moov+default_base_moof",
                            "-frag_duration", "1000000"};
 const Arguments kFfv1 = {"-c:v", "ffv1", "-level", "3", "-g", "1", "-slicecrc", "1"};
+const Arguments kGif = {
+    "-filter_complex",
+    "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=none",
+    "-gifflags", "-offsetting-transdiff"};
 
-// mp4: fragments of one second of film, which play even after a crash. The frames depend on timing
-// if x264 looks ahead in a thread of its own: about 1 of 100 encodings of small pictures differed,
-// and 0 of 1600 without this thread. mov: ProRes 4444, for editing. VP9: "realtime" is five
-// times as fast as "good", with a fifth more bytes at the same quality. FFV1: lossless, with
-// checksums. GIF: one palette per frame, because one for the whole film needs all frames in memory.
-// Whole frames, because ffmpeg 5 to 9 leaves out equal indices also where a frame has the palette
-// of the first one and its predecessor another. A transparent WebM has the matrix of BT.601,
-// because Firefox decodes VP9 with alpha by it whatever the film says.
+// The encodings of a format have nearly the same similarity to the pictures. mov: ProRes 4444, for
+// editing. FFV1: lossless, with checksums. GIF: one palette per frame, because one for the whole
+// film needs all frames in memory. Whole frames, because ffmpeg 5 to 9 leaves out equal indices
+// also where a frame has the palette of the first one and its predecessor another. A transparent
+// WebM has the matrix of BT.601, because Firefox decodes VP9 with alpha by it whatever the film
+// says.
 const std::array<MovieFormat, 5>& formats() {
   static const std::array<MovieFormat, 5> all = {{
       {".mp4",
        "mp4",
-       video(
-           kEvenSides, "yuv420p",
-           {"-c:v", "libx264", "-preset", "fast", "-crf", "18", "-x264-params", "sync-lookahead=0",
-            "-movflags", "+empty_moov+default_base_moof", "-frag_duration", "1000000"}),
+       converted(kEvenSides, "yuv420p"),
        {},
+       {x264("ultrafast", "18"), x264("veryfast", "16", ":subme=1:me=dia"), x264("slow", "20")},
        {"-c:a", "aac", "-b:a", "192k", "-flags:a", "+bitexact"}},
       {".mov",
        "mov",
-       video("", "yuv444p10le", kProRes),
-       video("", "yuva444p10le", kProRes),
+       converted("", "yuv444p10le"),
+       converted("", "yuva444p10le"),
+       {kProRes},
        {"-c:a", "pcm_s16le"}},
       {".webm",
        "webm",
-       video(kEvenSides, "yuv420p", kVp9),
-       video(kEvenClearSides, "yuva420p", with(kVp9, {"-auto-alt-ref", "0"}), "smpte170m"),
+       converted(kEvenSides, "yuv420p"),
+       with(converted(kEvenClearSides, "yuva420p", "smpte170m"), {"-auto-alt-ref", "0"}),
+       {vp9("realtime", "8", "24"), vp9("realtime", "5", "24"), vp9("good", "4", "28")},
        {"-c:a", "libopus", "-b:a", "160k", "-flags:a", "+bitexact"}},
       {".mkv",
        "matroska",
-       with(kFfv1, {"-pix_fmt", "bgr0"}),
-       with(kFfv1, {"-pix_fmt", "bgra"}),
+       {"-pix_fmt", "bgr0"},
+       {"-pix_fmt", "bgra"},
+       {kFfv1},
        {"-c:a", "flac", "-flags:a", "+bitexact"}},
-      {".gif",
-       "gif",
-       {"-filter_complex",
-        "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=none",
-        "-gifflags", "-offsetting-transdiff"},
-       {},
-       {}},
+      {".gif", "gif", {}, {}, {kGif}, {}},
   }};
   return all;
 }
@@ -152,7 +170,9 @@ std::vector<std::string> encoding_command(const std::string& encoder, const Movi
   append(all, {"-framerate", fmt::format("{:.10g}", options.fps), "-i", "pipe:0"});
   append(all, texts_of(metadata));
   append(all, kTextsOfSecond);
-  append(all, options.transparent ? format.transparent : format.encoding);
+  append(all, options.transparent ? format.clear_pixels : format.pixels);
+  append(all,
+         format.codecs[format.has_encodings() ? static_cast<std::size_t>(options.encoding) : 0]);
   append(all, {"-f", format.muxer, name_of(file)});
   return all;
 }

@@ -10,11 +10,17 @@ namespace clatter {
 
 /// A film format of ffmpeg.
 struct MovieFormat {
-  std::string extension;                 ///< file extension, ".mp4"
-  std::string muxer;                     ///< name of the container in ffmpeg
-  std::vector<std::string> encoding;     ///< encoding arguments of ffmpeg
-  std::vector<std::string> transparent;  ///< of pictures with alpha; empty: the format has no alpha
-  std::vector<std::string> sound;        ///< of the sound; empty: the format has none
+  using Arguments = std::vector<std::string>;  ///< of ffmpeg
+
+  std::string extension;          ///< file extension, ".mp4"
+  std::string muxer;              ///< name of the container in ffmpeg
+  Arguments pixels;               ///< conversion of the pictures for the codec
+  Arguments clear_pixels;         ///< of pictures with alpha; empty: the format has no alpha
+  std::vector<Arguments> codecs;  ///< one for each Encoding, or one for all
+  Arguments sound;                ///< of the sound; empty: the format has none
+
+  /// Whether a film has a choice of the Encoding.
+  bool has_encodings() const { return codecs.size() > 1; }
 };
 
 /// The format of a file extension; nullptr: none.

@@ -37,7 +37,7 @@ AccuracyTable gas_table() {
 }
 
 PictureTable picture_table() {
-  return {"frame_rate", "Frame rate", {{"30", 30.0, 0.045, 0.9876, 0.067, false}}};
+  return {"frame_rate", "Frame rate", {{"30", 30.0, 0.045, 0.9876, 0.067, 5.4e4, false}}};
 }
 
 std::vector<std::string> words_of(const std::string& text, char gap) {
@@ -88,6 +88,7 @@ TEST_CASE("Accuracy tables: JSON and CSV have each number under its own name") {
                                {"cpu_seconds_per_picture", 0.045},
                                {"ssim", 0.9876},
                                {"centre_error_pixels", 0.067},
+                               {"bytes_per_second", 5.4e4},
                                {"dominated", false}}}}}}}};
   CHECK(found == expected);
 

@@ -44,6 +44,41 @@ TEST_CASE("Film files: every format has all pictures at their times, in one stre
   }
 }
 
+// The similarity is that of ffmpeg, over all pictures.
+TEST_CASE("Film files: encodings trade bytes, and all resemble the pictures") {
+  const Shell shell;
+  const std::string render = "clatter render vibrated --size 480x360 --to 5 --speed 2 --quiet ";
+  REQUIRE(shell.run(render + "--out whole.mkv").code == 0);
+  for (const std::string format : {"mp4", "webm"}) {
+    CAPTURE(format);
+    std::uintmax_t less = 0;
+    for (const std::string encoding : {"small", "balanced", "fast"}) {
+      CAPTURE(encoding);
+      const std::string file = encoding + "." + format;
+      REQUIRE(shell.run(render + "--encoding " + encoding + " --out " + file).code == 0);
+      check_times(read_by(shell, "read_film.py", file), 75, 1.1e-3);
+      const std::uintmax_t bytes = std::filesystem::file_size(shell.path(file));
+      CHECK(bytes > less);
+      less = bytes;
+      const std::string report =
+          shell
+              .run("ffmpeg -i " + file +
+                   " -i whole.mkv -lavfi '[0:v]setpts=N/30/TB[a];[1:v]scale=out_color_matrix=bt709"
+                   ":out_range=tv,format=yuv420p,setpts=N/30/TB[b];[a][b]ssim' -f null - 2>&1")
+              .out;
+      const auto all = report.find("All:");
+      REQUIRE(all != report.npos);
+      CHECK(std::stod(report.substr(all + 4)) > 0.985);
+    }
+  }
+  REQUIRE(shell.run(render + "--out default.mp4").code == 0);
+  CHECK(shell.run("cmp default.mp4 balanced.mp4").code == 0);
+  for (const char* out : {"film.mkv", "film.gif", "folder", "picture.png"}) {
+    check_refused(shell, render + "--encoding fast --out " + out, {"--encoding", ".mp4 or .webm"});
+  }
+  check_refused(shell, render + "--encoding quick --out a.mp4", {"--encoding", "quick"});
+}
+
 TEST_CASE("Film files: each picture of a transparent WebM has an opacity") {
   const Shell shell;
   REQUIRE(shell.run(kFilmOf5Seconds + "--transparent --out film.webm").code == 0);

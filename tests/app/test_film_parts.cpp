@@ -112,6 +112,7 @@ TEST_CASE("Film parts: a resumed film keeps the flags it began with, and refuses
       {"--speed 2", {"--speed"}},
       {"--shutter 0.2", {"--shutter", "0.7"}},
       {"--transparent", {"--transparent"}},
+      {"--encoding small", {"--encoding", "balanced"}},
       {"--no-overlay", {"--no-overlay"}},
       {"--to 3", {"--to", "5.9"}},
       {"--set view.field=density", {"view.field"}},

@@ -48,7 +48,7 @@ TEST_CASE("Film dialog: its formats are those of films, with their sound and tra
     REQUIRE(format);
     CHECK(std::string(offered.use).starts_with(names.at(offered.extension)));
     CHECK(offered.sound == !format->sound.empty());
-    CHECK(offered.alpha == !format->transparent.empty());
+    CHECK(offered.alpha == !format->clear_pixels.empty());
     extensions.insert(offered.extension);
   }
   CHECK(extensions.size() == names.size());
