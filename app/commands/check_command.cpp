@@ -54,7 +54,7 @@ void print_way(const Scene& scene) {
   const bool whole =
       scene.piston || scene.shear_rate || std::ranges::any_of(scene.partitions, has_valve);
   if (whole || !runs_in_tiles(scene.dimension(), particles, processors())) return;
-  std::fputs(watched_runs_in_tiles(particles, processors())
+  std::fputs(watched_runs_in_tiles(processors())
                  ? "Runs in tiles on several threads.\n"
                  : "Runs as a whole on fewer than 4 threads; only films of elastic gases without "
                    "heatmaps and trails run in tiles.\n",

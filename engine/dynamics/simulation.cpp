@@ -187,7 +187,7 @@ void Simulation<D>::use_threads(int threads) {
   const auto count = static_cast<double>(particles().size());
   const double density = count * std::pow(model_.diameter, D) / model_.box.prod();
   use_threads(threads, tile_sizes(particles().size(), packing_fraction(D, density), threads));
-  watched_in_tiles_ = watched_runs_in_tiles(particles().size(), threads);
+  watched_in_tiles_ = watched_runs_in_tiles(threads);
 }
 
 template <int D>

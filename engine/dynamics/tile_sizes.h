@@ -14,10 +14,9 @@ struct TileSizes {
 /// Whether a gas of so many particles runs faster in tiles than as a whole, as far as measured.
 bool runs_in_tiles(int dimension, std::size_t particles, int threads);
 
-/// Whether a gas that runs in tiles does so also if an observer or the detection of collapse needs
-/// the events in order. One thread then processes all events, and in smaller gases a second thread
-/// gains less than it costs.
-bool watched_runs_in_tiles(std::size_t particles, int threads);
+/// Whether that holds also if an observer or the detection of collapse needs the events in order.
+/// One thread then processes all events, and fewer threads gain less than it costs.
+bool watched_runs_in_tiles(int threads);
 
 /// The best sizes for a gas of so many particles that fill a fraction of the box: each thread has
 /// several tiles. Influence travels farther in a dilute gas.

@@ -354,10 +354,8 @@ TEST_CASE("Foresight: a window continues after a request to stop") {
 }
 
 TEST_CASE("Foresight: few threads run a gas in tiles only if it is not watched") {
-  CHECK(watched_runs_in_tiles(100'000, 4));
-  CHECK(!watched_runs_in_tiles(100'000, 3));
-  CHECK(watched_runs_in_tiles(250'000, 2));
-  CHECK(!watched_runs_in_tiles(10'000'000, 1));
+  CHECK(watched_runs_in_tiles(4));
+  CHECK(!watched_runs_in_tiles(3));
   Scene scene = parse_scene("box.size = [700, 600]\nparticles.count = 200_000", "a scene");
   const State<2> start = start_state<2>(scene, kForesightSeed);
   const auto tiles = [&](int threads, bool observed) {
@@ -406,7 +404,7 @@ TEST_CASE("Foresight: after a cut window the next one is full") {
   CHECK(gas.tiles() > 1);
   const double full = static_cast<double>(gas.counts().collisions() - collisions) / 20'000.0;
   const double found = static_cast<double>(gas.foresight()->work().windows - windows);
-  CHECK(found < full + 16.0);
+  CHECK(found < full + 16.0);  // one more for each kick
 }
 
 TEST_CASE("Certificate: each term counts") {
