@@ -176,6 +176,7 @@ int submit(const RenderOptions& options, const Scene& scene, const FilmState& fi
 int render(const RenderOptions& options) {
   require_comparable(options);
   Scene scene = load(options.common, options.checkpoints.start_file());
+  if (options.no_overlay && !options.common.sets("view.plots")) scene.view.plots.clear();
   std::optional<Resumed> resumed = resume(options.common, options.checkpoints, scene);
   const FilmState film = film_asked_for(options, scene.view, resumed);
   const FrameRange frames = frames_asked_for(options, film);
@@ -281,7 +282,8 @@ void add_render_command(CLI::App& program, int& exit_code) {
                    "and 2 for encoding.")
       ->check(whole_number_between(1, 256));
   command->add_flag("--no-overlay", options->no_overlay,
-                    "Draw no title, time, colour bar and scale bar.");
+                    "Draw the gas alone: no title, time, colour bar and scale bar, and no plots "
+                    "unless --set view.plots gives some.");
   command->add_flag("--transparent", options->transparent,
                     "Draw no background. For PNG pictures, and for films .mov, .webm and .mkv.");
   command

@@ -51,7 +51,7 @@ std::string film_command(const FilmJob& job) {
       "  --threads={} --backend={}",
       program_word(), job.seed, times.from, times.of(times.count), times.speed, times.fps,
       size_text(film.size), film.samples, film.shutter, job.threads, name_of(job.backend));
-  if (!film.overlay) words += " --no-overlay";
+  if (!film.overlay) words += " --set=view.overlay=false";
   if (film.transparent) words += " --transparent";
   if (film.encoding != Encoding::Balanced) words += " --encoding=" + name_of(film.encoding);
   return words;

@@ -2,7 +2,9 @@
 
 #include <fmt/printf.h>
 #include <imgui.h>
-#include <imgui_internal.h>  // TempInputIsActive: only it tells whether a slider is a text field
+// TempInputIsActive: only it tells whether a slider is a text field; OpenPopupStack: whether a
+// popup is a list.
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -49,17 +51,6 @@ static void show_help(const char* help) {
   if (!*help || !ImGui::IsItemHovered()) return;
   begin_tip();
   ImGui::TextUnformatted(help);
-  end_tip();
-}
-
-static void explain(const Slider& slider, double usual) {
-  if (!ImGui::IsItemHovered() || ImGui::IsItemActive()) return;
-  const std::string text = fmt::sprintf(slider.format, usual);
-  begin_tip();
-  ImGui::Text("%s%s%s", slider.name, *slider.symbol ? "  " : "", slider.symbol);
-  if (*slider.help) ImGui::TextDisabled("%s", slider.help);
-  ImGui::TextDisabled("Here: %s%s%s. Click the number to type.", text.c_str(),
-                      *slider.unit ? " " : "", slider.unit);
   end_tip();
 }
 
@@ -120,6 +111,25 @@ static bool headline(const Slider& slider, double value) {
 // Rounds to three digits, the resolution of dragging.
 static double rounded(double value) {
   return std::stod(fmt::format("{:.3g}", value));
+}
+
+// Whether a slider may have its tooltip. It would hide a message about the number, so there is none
+// until the mouse moves.
+bool Controls::explains() {
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  if (std::exchange(messages_, session_.messages()) != session_.messages()) told_at_ = mouse;
+  return mouse.x != told_at_.x || mouse.y != told_at_.y;
+}
+
+void Controls::explain(const Slider& slider, double usual) {
+  if (!ImGui::IsItemHovered() || ImGui::IsItemActive() || !explains()) return;
+  const std::string text = fmt::sprintf(slider.format, usual);
+  begin_tip();
+  ImGui::Text("%s%s%s", slider.name, *slider.symbol ? "  " : "", slider.symbol);
+  if (*slider.help) ImGui::TextDisabled("%s", slider.help);
+  ImGui::TextDisabled("Here: %s%s%s. Click the number to type.", text.c_str(),
+                      *slider.unit ? " " : "", slider.unit);
+  end_tip();
 }
 
 bool Controls::shows(const std::string& name) {
@@ -194,6 +204,15 @@ double Controls::limited(const Slider& slider, double value) {
   return within;
 }
 
+// Reports typed signs that no number has. Dear ImGui drops them.
+void Controls::refuse_letters(const char* name) {
+  constexpr std::string_view kOfNumbers = "0123456789.+-*/eE";
+  for (const ImWchar sign : ImGui::GetIO().InputQueueCharacters) {
+    if (sign < 0x80 && kOfNumbers.find(static_cast<char>(sign)) != std::string_view::npos) continue;
+    return session_.report(fmt::format("{}: type a number", name));
+  }
+}
+
 // `place` is the name of the slider in the script log.
 Controls::Moved Controls::draw(const Slider& slider, double& value, double usual,
                                const std::string& place) {
@@ -223,6 +242,7 @@ Controls::Moved Controls::draw(const Slider& slider, double& value, double usual
   const ImGuiSliderFlags flags =
       slider.logarithmic ? ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat : 0;
   const double was = value;
+  if (typing) refuse_letters(slider.name);
   const Reach reach(ImGui::GetFrameHeight(), tall);
   moved.changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &slider.low,
                                       &slider.high, format, flags);
@@ -381,6 +401,13 @@ bool Controls::choice(const char* key, const char* name, const char* help,
   return changed;
 }
 
+bool Controls::close_list() {
+  const auto& popups = ImGui::GetCurrentContext()->OpenPopupStack;
+  const ImGuiWindow* top = popups.empty() ? nullptr : popups.back().Window;
+  closes_list_ = top && std::string_view(top->Name).starts_with("##Combo");
+  return closes_list_;
+}
+
 bool Controls::ends(const char* key, const char* help, std::array<double, 2>& ends) {
   if (!shows(key)) return false;
   std::array<double, 2> typed = ends;
@@ -394,7 +421,9 @@ bool Controls::ends(const char* key, const char* help, std::array<double, 2>& en
   if (ImGui::IsItemActivated()) cancelled_ = false;
   const bool complete = ImGui::IsItemDeactivatedAfterEdit() && !cancelled_;
   if (complete) typed = typed_ends_;
-  const bool changed = complete && typed != ends && typed[0] < typed[1];
+  const bool ordered = typed[0] < typed[1];
+  if (complete && !ordered) session_.report("The lower end must be less than the upper end");
+  const bool changed = complete && typed != ends && ordered;
   log_place(key);
   show_help(help);
   ImGui::PopID();

@@ -85,8 +85,8 @@ class Controls {
               const std::vector<std::string>& words, int& chosen, int usual, bool grouped = false);
   /// Gives up the number that is being typed. Not all versions of Dear ImGui restore it.
   void cancel_typing() { cancelled_ = true; }
-  /// Closes the open list of a choice.
-  void close_list() { closes_list_ = true; }
+  /// Closes the open list of a choice. Returns whether there is one.
+  bool close_list();
   /// Two text fields for the ends of a range. Returns true if a new pair with ends[0] < ends[1] was
   /// entered.
   bool ends(const char* key, const char* help, std::array<double, 2>& ends);
@@ -132,7 +132,10 @@ class Controls {
   template <class Field>
   bool named_field(const char* key, const char* name, const char* help, const Field& field);
   double limited(const Slider& slider, double value);
+  void refuse_letters(const char* name);
   bool due();
+  bool explains();
+  void explain(const Slider& slider, double usual);
   void log_place(const std::string& key);
 
   Session& session_;
@@ -150,6 +153,8 @@ class Controls {
   double set_at_ = 0.0;                    // time of the last change by a drag, seconds
   bool closes_list_ = false;               // whether the open list shall close
   std::optional<View> shown_before_;       // view before the current drag
+  std::uint64_t messages_ = 0;             // of the session so far
+  ImVec2 told_at_ = {-FLT_MAX, -FLT_MAX};  // of the mouse at the last message
 };
 
 /// Only the controls with the given names are drawn in its life, without headings.

@@ -67,7 +67,7 @@ std::vector<std::string> film_command(const FilmSettings& film,
   add(film.from > 0.0, {"--from", number_text(film.from)});
   add(true, {"--to", number_text(film.to), "--speed", number_text(film.speed)});
   add(film.quality != 'm', {std::string("-q") + film.quality});
-  add(!film.overlay, {"--no-overlay"});
+  add(!film.overlay, {"--set", "view.overlay=false"});
   if (film.plots != film.own_plots) {
     add(true, {"--set", film.plots ? kPlots : "view.plots=[]"});
   }

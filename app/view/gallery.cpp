@@ -72,22 +72,59 @@ bool Gallery::draw_card(const Entry& entry, bool selected, Controls& controls) {
   return clicked;
 }
 
-// The scenes with the searched text.
+// The place of a scene among the matches of a searched text: 0 is the best. Absent: no match.
+std::optional<int> Gallery::rank(const Entry& entry, const std::string& wanted) {
+  const std::string name = lower(entry.name), title = lower(entry.title);
+  if (name.starts_with(wanted)) return 0;
+  if (title.starts_with(wanted)) return 1;
+  for (const std::string& text : {name, title}) {
+    if (text.find(wanted) != std::string::npos) return 2;
+  }
+  const std::string texts = lower(entry.caption + ' ' + entry.goal + ' ' + entry.try_this);
+  return texts.find(wanted) != std::string::npos ? std::optional(3) : std::nullopt;
+}
+
+// The scenes with the searched text, the best match first.
 std::vector<const Gallery::Entry*> Gallery::matches() const {
   const std::string wanted = lower(search_.data());
-  std::vector<const Entry*> found;
+  std::vector<std::pair<int, const Entry*>> found;
   for (const Entry& entry : entries_) {
-    const std::string texts = entry.name + ' ' + entry.title + ' ' + entry.caption + ' ' +
-                              entry.goal + ' ' + entry.try_this;
-    if (lower(texts).find(wanted) != std::string::npos) found.push_back(&entry);
+    const auto at = wanted.empty() ? 0 : rank(entry, wanted);
+    if (at) found.emplace_back(*at, &entry);
   }
-  return found;
+  std::ranges::stable_sort(found, {}, &std::pair<int, const Entry*>::first);
+  std::vector<const Entry*> entries;
+  for (const auto& [at, entry] : found) entries.push_back(entry);
+  return entries;
+}
+
+void Gallery::search(const std::string& text) {
+  search_ = {};
+  text.copy(search_.data(), search_.size() - 1);
+  selected_ = 0;
 }
 
 void Gallery::press(const KeyPress& press) {
   if (press.key == GLFW_KEY_DOWN) ++steps_;
   if (press.key == GLFW_KEY_UP) --steps_;
   if (press.key == GLFW_KEY_ENTER) enters_ = true;
+  // A field with the focus takes its own keys.
+  const std::string text = search_.data();
+  if (press.key == GLFW_KEY_BACKSPACE && !text.empty() && !ImGui::GetIO().WantTextInput) {
+    search(text.substr(0, text.size() - 1));
+  }
+}
+
+void Gallery::type(const std::string& signs) {
+  std::string text = search_.data();
+  for (const char sign : signs) {
+    if (sign == '/') {
+      text.clear();
+    } else {
+      text += sign;
+    }
+  }
+  if (!signs.empty()) search(text);
 }
 
 // Moves the selection by the pressed arrow keys. Returns true if it moved.
@@ -110,16 +147,11 @@ const EmbeddedFile* Gallery::draw(Controls& controls, float width, float height,
   ImGui::Begin("Gallery", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
-  if (ImGui::IsWindowAppearing()) {
-    search_ = {};
-    selected_ = 0;
-  }
-  if (std::exchange(searches_, false)) ImGui::SetKeyboardFocusHere();
   const float side = ImGui::GetFrameHeight();
   ImGui::SetNextItemWidth(-side - ImGui::GetStyle().ItemSpacing.x);
   // While a text is typed, Enter is the one of the field, which comes after all letters before it.
   const bool entered =
-      ImGui::InputTextWithHint("##search", "Search the gallery ( / )", search_.data(),
+      ImGui::InputTextWithHint("##search", "Type to search the gallery", search_.data(),
                                search_.size(), ImGuiInputTextFlags_EnterReturnsTrue);
   if (ImGui::IsItemEdited()) selected_ = 0;
   // The field loses the focus at Enter. Without a match it gets the focus back.
@@ -127,7 +159,7 @@ const EmbeddedFile* Gallery::draw(Controls& controls, float width, float height,
   const bool typing = ImGui::IsItemActive() || ImGui::IsItemDeactivated();
   const bool enter = (std::exchange(enters_, false) && !typing) || entered;
   ImGui::SameLine();
-  if (controls.button("gallery.close", "×", "Close (G)", side)) open = false;
+  if (controls.button("gallery.close", "×", "Close (Esc)", side)) open = false;
   ImGui::Spacing();
   ImGui::BeginChild("scenes");
   const std::vector<const Entry*> found = matches();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,13 @@ class Gallery {
   /// The renderer draws the pictures of scenes. It must outlive the gallery.
   Gallery(const Gl& gl, Renderer& renderer);
 
-  /// Takes a key before the next picture. Arrow keys move the selection, Enter chooses.
+  /// Forgets the searched text.
+  void forget() { search({}); }
+  /// Takes a key before the next picture. Arrow keys move the selection, Enter chooses, and
+  /// Backspace removes the last letter of the searched text.
   void press(const KeyPress& press);
-  /// Begins the typing of a searched text in the next picture.
-  void search() { searches_ = true; }
+  /// Adds typed signs of ASCII to the searched text. A slash begins another text.
+  void type(const std::string& signs);
   /// Draws the gallery over a window of `width` x `height`. A button sets `open` to false. Returns
   /// the chosen scene; null: none.
   const EmbeddedFile* draw(Controls& controls, float width, float height, bool& open);
@@ -35,6 +39,8 @@ class Gallery {
     std::string name, title, caption, goal, try_this;
   };
 
+  static std::optional<int> rank(const Entry& entry, const std::string& wanted);
+  void search(const std::string& text);
   std::vector<const Entry*> matches() const;
   bool select(int matches);
   bool draw_card(const Entry& entry, bool selected, Controls& controls);
@@ -43,9 +49,9 @@ class Gallery {
   std::vector<Entry> entries_;
   std::array<char, 64> search_ = {};
   int selected_ = 0;  // index into matches()
-  // Of the keys before the next picture: steps of the selection, Enter, and the key of the search.
+  // Of the keys before the next picture: steps of the selection, and Enter.
   int steps_ = 0;
-  bool enters_ = false, searches_ = false;
+  bool enters_ = false;
 };
 
 }  // namespace clatter

@@ -232,6 +232,7 @@ void Gui::viewport() {
   const Frame& frame = session_.frame();
   if (std::exchange(told_gallery_, panels_.gallery) != panels_.gallery) {
     log_.event("gallery", {{"open", panels_.gallery}});
+    if (!panels_.gallery) gallery_.forget();
   }
   if (panels_.gallery) {
     const EmbeddedFile* chosen = gallery_.draw(controls_, whole.x, whole.y, panels_.gallery);
@@ -240,7 +241,7 @@ void Gui::viewport() {
   opener_.draw_question(lecture_.theme());
   recorder_.draw_dialog(lecture_.theme());
   if (panels_.help) help_window(session_.scene().dimension(), whole.x, whole.y);
-  if (frame.opening) opening_note(session_, controls_, area_);
+  if (frame.opening || frame.bound_for) opening_note(session_, controls_, area_);
   if (!frame.scene) return;
   if (viewport_.drawn()) mouse_.use(area_.low, scale_);
   const ImGuiIO& io = ImGui::GetIO();
@@ -257,12 +258,14 @@ void Gui::viewport() {
 // Scale of the texts of the window. In lecture mode the window keeps room for the gas.
 float Gui::letters() const {
   if (!panels_.lecture) return static_cast<float>(text_scale_.value());
-  constexpr float kLetters = 1.6f;                  // usual scale
+  constexpr float kLetters = 1.6f;                  // least usual scale
+  constexpr float kLegible = 0.025f;                // of the height of the window, 8 m away
   constexpr float kColumns = 39.0f, kRows = 20.0f;  // least size of the window, in text sizes
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
   const float most =
       std::min(whole.x / kColumns, whole.y / kRows) / (kTextSize * host_.content_scale());
-  return std::max(1.0f, std::min(kLetters * static_cast<float>(text_scale_.value()), most));
+  const float usual = std::max(kLetters, kLegible * whole.y / (kTextSize * host_.content_scale()));
+  return std::max(1.0f, std::min(usual * static_cast<float>(text_scale_.value()), most));
 }
 
 }  // namespace clatter

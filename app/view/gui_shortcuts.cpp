@@ -50,20 +50,24 @@ static void face_preset(const Session& session, Controls& controls, char key) {
 void Gui::use_keys() {
   for (const std::string& file : input_.take_dropped()) opener_.open_file(file);
   const std::string typed = input_.take_typed();
+  const bool in_gallery = panels_.gallery;
   for (const KeyPress& press : input_.take_presses()) {
     if (opener_.asks()) {
       opener_.press(press);
       continue;
     }
     if (recorder_.has_dialog()) {
-      if (press.key == GLFW_KEY_ESCAPE) recorder_.close_dialog();
+      if (press.key == GLFW_KEY_ESCAPE && !controls_.close_list()) recorder_.close_dialog();
       continue;
     }
     if (panels_.gallery) gallery_.press(press);
     use_function_key(press);
     if (!ImGui::GetIO().WantTextInput) use_key(press, typed);
   }
-  if (!ImGui::GetIO().WantTextInput && !opener_.asks() && !recorder_.has_dialog()) use_signs(typed);
+  if (ImGui::GetIO().WantTextInput || opener_.asks() || recorder_.has_dialog()) return;
+  if (!panels_.gallery) return use_signs(typed);
+  // The letter that opened the gallery is no part of the searched text.
+  gallery_.type(in_gallery ? typed : typed.substr(typed.find_first_of("gG") + 1));
 }
 
 void Gui::use_function_key(const KeyPress& press) {
@@ -88,8 +92,8 @@ void Gui::use_key(const KeyPress& press, const std::string& typed) {
   const bool opens = press.key == GLFW_KEY_TAB ||
                      std::string_view("ghlpt").find(press.sign) != std::string_view::npos;
   if (controls_.chooses() && opens) return;
-  // Who types a name into the gallery before the search is active must not restart the gas.
-  if (panels_.gallery && press.sign != 'g' && press.sign != 'h') return;
+  // The gallery takes all letters as the searched text.
+  if (panels_.gallery) return;
   switch (press.key) {
     case GLFW_KEY_TAB:
       return panels_.toggle_panels();
@@ -168,22 +172,21 @@ void Gui::use_signs(const std::string& typed) {
   for (const char sign : typed) {
     if (sign == '+' || sign == '=') session_.change_speed(true);
     if (sign == '-') session_.change_speed(false);
-    if (sign == '.' && !panels_.gallery) session_.step_frame();
-    if (sign == ',' && !panels_.gallery) session_.step_frame_back();
-    // Not every letter begins the search, so that G closes the gallery.
-    if (sign == '/' && panels_.gallery) gallery_.search();
+    if (sign == '.') session_.step_frame();
+    if (sign == ',') session_.step_frame_back();
     if (sign == '[') opener_.step(-1);
     if (sign == ']') opener_.step(1);
     const auto tool = static_cast<std::size_t>(sign) - '1';
-    if (tool < kTools.size() && !panels_.gallery && !controls_.chooses()) {
+    if (tool < kTools.size() && !controls_.chooses()) {
       lecture_.toggle_tool(kTools[tool].tool);
     }
   }
 }
 
 void Gui::close_something() {
-  if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return controls_.close_list();
-  if (session_.frame().opening && session_.frame().run > 0) return session_.cancel_open();
+  if (controls_.close_list()) return;
+  const Frame& frame = session_.frame();
+  if ((frame.opening || frame.bound_for) && frame.run > 0) return session_.cancel_open();
   if (ImGui::GetIO().WantTextInput && !panels_.gallery) return controls_.cancel_typing();
   if (std::exchange(panels_.gallery, false) || std::exchange(panels_.help, false)) return;
   if (lecture_.close_settings()) return;

@@ -43,7 +43,7 @@ void LectureMode::toggle() {
   if (on) panels_.lesson = panels_.plots = false;
   panels_.lecture = on;
   panels_.panels = !on;
-  lines_.clear();
+  wipe();
   trail_.clear();
   viewport_.redraw();
 }
@@ -64,6 +64,9 @@ bool LectureMode::use_key(char key) {
   switch (key) {
     case 'd':
       toggle_pen();
+      return true;
+    case 'e':
+      wipe();
       return true;
     case 'k':
       pointer_ = !pointer_;
@@ -88,7 +91,7 @@ View LectureMode::shown_view() const {
 }
 
 bool LectureMode::changes() const {
-  return panels_.lecture && (lines_.visible() || trail_.visible() || stopwatch_.runs());
+  return panels_.lecture && (trail_.visible() || stopwatch_.runs());
 }
 
 // Title and caption of the scene along the upper edge, as far as they leave enough room. Returns
@@ -136,19 +139,25 @@ float LectureMode::caption_strip(const Area& area) {
 void LectureMode::column(Area& area) {
   constexpr float kLeast = 15.0f, kMost = 30.0f;  // width of the plot, in text sizes
   constexpr float kShare = 0.36f, kMostShare = 0.46f;
-  constexpr float kLeastPlot = 6.0f;  // height of the plot, in text sizes
+  constexpr float kLeastPlot = 6.0f;             // height of the plot, in text sizes
+  constexpr float kLeastOfWindow = 1.0f / 3.0f;  // the same, over that of the window
   constexpr float kMostHeight = 0.4f;
   const ImGuiStyle& style = ImGui::GetStyle();
   const float unit = ImGui::GetFontSize();
   const float whole = area.high.x - area.low.x, tall = area.high.y - area.low.y;
-  const std::vector<std::string> names = sliders_.names();
+  std::vector<std::string> names = sliders_.names();
   const std::size_t profile =
       plots_.profiled() < profile_names(plots_.profile_axis()).size() - 1 ? plots_.profiled() : 0;
   const auto plot = lecture_plot(plot_ ? session_.view().lecture.plot : LecturePlot::None,
                                  plots_.gases(), profile, panel_theme(shown_view()));
+  const bool wide = plot && kLeast * unit <= kMostShare * whole;
+  // The plot keeps its height; sliders without room are left out.
+  const float least = std::max(kLeastPlot * unit, kLeastOfWindow * ImGui::GetIO().DisplaySize.y);
+  const auto has_room = [&] { return sliders_.height(names, 1) + least + 3.0f * unit <= tall; };
+  while (wide && names.size() > 1 && !has_room()) names.pop_back();
   const float below = sliders_.height(names, 1);
-  const bool beside =
-      plot && kLeast * unit <= kMostShare * whole && below + (kLeastPlot + 3.0f) * unit <= tall;
+  const bool beside = wide && has_room();
+  plot_frame_.reset();
   if (beside) {
     const float width = std::round(
         std::clamp(kShare * whole, kLeast * unit, std::min(kMost * unit, kMostShare * whole)));
@@ -159,7 +168,9 @@ void LectureMode::column(Area& area) {
     const float room = ImGui::GetContentRegionAvail().y - below;
     ImGui::BeginChild("plot", ImVec2(0.0f, room), false, ImGuiWindowFlags_NoScrollbar);
     const float height = std::max(room - plot_heading_, kLeastPlot * unit);
-    draw_plot(*plot, height);
+    plot_frame_ = draw_plot(*plot, height, !pen_);
+    lines_.paint(*ImGui::GetWindowDrawList(), packed(kRed), 0.25f * unit, ImGui::GetTime());
+    paint_slope(*ImGui::GetWindowDrawList());
     plot_heading_ = ImGui::GetCursorPosY() - height;
     ImGui::EndChild();
     log_.widget("lecture.plot", low.x, low.y, ImGui::GetContentRegionAvail().x, room);
@@ -235,8 +246,13 @@ float LectureMode::bar() {
       toggle_tool(tool.tool);
     }
   }
-  if (button("lecture.pen", "Pen", "The mouse draws lines that fade out (D)", pen_)) {
+  if (button("lecture.pen", "Pen", "The mouse draws lines; with Shift on the plot, a slope (D)",
+             pen_)) {
     toggle_pen();
+  }
+  if ((lines_.visible() || slope_) &&
+      button("lecture.wipe", "Wipe", "Removes the lines of the pen (E)", false)) {
+    wipe();
   }
   if (button("lecture.pointer", "Pointer", "Ring and trail of the pointer (K)", pointer_)) {
     pointer_ = !pointer_;
@@ -295,6 +311,11 @@ void LectureMode::toggle_pen() {
   if (pen_) mouse_tools_.leave();
 }
 
+void LectureMode::wipe() {
+  lines_.clear();
+  slope_.reset();
+}
+
 void LectureMode::lift_pen() {
   pen_ = false;
   lines_.lift();
@@ -347,8 +368,11 @@ bool LectureMode::choose_plot(Lecture& lecture) {
 void LectureMode::use_pen(bool over) {
   const ImGuiIO& io = ImGui::GetIO();
   const double now = ImGui::GetTime();
-  const bool held = draws() && over && ImGui::IsMouseDown(0);
-  held ? lines_.draw_to(io.MousePos, now) : lines_.lift();
+  const bool on_plot = plot_frame_ && plot_frame_->contains(io.MousePos);
+  const bool held = draws() && (over || on_plot) && ImGui::IsMouseDown(0);
+  const bool slope = io.KeyShift && on_plot;
+  if (slope) draw_slope(held);
+  held && !slope ? lines_.draw_to(io.MousePos, now) : lines_.lift();
   if (panels_.lecture && pointer_ && over) {
     trail_.draw_to(io.MousePos, now);
   } else {
@@ -356,6 +380,31 @@ void LectureMode::use_pen(bool over) {
   }
   lines_.update(now);
   trail_.update(now);
+}
+
+// A press begins a triangle, and its other end follows the mouse.
+void LectureMode::draw_slope(bool held) {
+  if (!held) return;
+  const Vec2 point = plot_frame_->point(ImGui::GetIO().MousePos);
+  if (ImGui::IsMouseClicked(0) || !slope_) slope_ = {point, point};
+  (*slope_)[1] = point;
+}
+
+void LectureMode::paint_slope(ImDrawList& list) const {
+  if (!slope_ || !plot_frame_) return;
+  const float unit = ImGui::GetFontSize();
+  const auto& [from, to] = *slope_;
+  const ImVec2 a = plot_frame_->at(from), b = plot_frame_->at(to), corner(b.x, a.y);
+  const ImU32 ink = packed(kRed);
+  list.AddTriangle(a, corner, b, ink, 0.12f * unit);
+  const std::string text = slope_text(*plot_frame_, from, to);
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const float left = std::clamp(b.x + 0.4f * unit, plot_frame_->low.x,
+                                std::max(plot_frame_->low.x, plot_frame_->high.x - size.x));
+  const ImVec2 low(left, 0.5f * (a.y + b.y - size.y));
+  list.AddRectFilled(low, ImVec2(low.x + size.x, low.y + size.y),
+                     ImGui::GetColorU32(ImGuiCol_PopupBg));
+  list.AddText(low, ink, text.c_str());
 }
 
 void LectureMode::paint_ink(ImDrawList& list, bool over) const {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "app/view/lecture_sliders.h"
@@ -9,6 +12,7 @@
 #include "app/view/mouse_tools.h"
 #include "app/view/session.h"
 #include "app/view/window_parts.h"
+#include "render/charts/live_plot.h"
 
 namespace clatter {
 
@@ -45,7 +49,8 @@ class LectureMode {
   void lift_pen();
   /// Whether the mouse belongs to the pen.
   bool draws() const { return panels_.lecture && pen_; }
-  /// Draws with the pen, and follows the pointer. `over`: the mouse is over the gas.
+  /// Draws with the pen, over the gas or the large plot, and follows the pointer. With Shift the
+  /// pen lays a slope triangle on the plot. `over`: the mouse is over the gas.
   void use_pen(bool over);
   /// Draws the lines of the pen, and the ring and trail of the pointer.
   void paint_ink(ImDrawList& list, bool over) const;
@@ -58,6 +63,9 @@ class LectureMode {
   void stopwatch_button();
   void press_stopwatch();
   void toggle_pen();
+  void wipe();
+  void draw_slope(bool held);
+  void paint_slope(ImDrawList& list) const;
   void draw_settings();
   bool choose_plot(Lecture& lecture);
 
@@ -71,14 +79,16 @@ class LectureMode {
   PlotsPanel& plots_;
   SceneOpener& opener_;
   LectureSliders sliders_;
-  bool pen_ = false;       // the mouse draws lines that fade out
+  bool pen_ = false;       // the mouse draws lines
   bool pointer_ = false;   // the pointer has a ring and a trail
   bool timeline_ = false;  // the timeline is shown
   bool captions_ = true;   // the caption of the scene is shown
   bool settings_ = false;  // the settings are shown
   bool plot_ = true;       // the large plot is shown
   Theme theme_ = Theme::Projector;
-  FadingInk lines_{8.0, 2.0};  // of the pen
+  FadingInk lines_{std::numeric_limits<double>::infinity(), 1.0};  // of the pen, until wiped
+  std::optional<std::array<Vec2, 2>> slope_;  // ends of the triangle, points of the plot
+  std::optional<PlotFrame> plot_frame_;       // of the large plot, while it is drawn
   FadingInk trail_{0.7, 0.7};  // of the pointer
   Stopwatch stopwatch_;
   std::uint64_t run_ = 0;      // the run that the stopwatch measures

@@ -50,13 +50,20 @@ void opening_note(Session& session, Controls& controls, const Area& area) {
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
   const Scene& scene = session.scene();
-  ImGui::Text("Placing %s", counted(static_cast<std::size_t>(scene.particles.count),
-                                    scene.dimension() == 2 ? "disk" : "sphere")
-                                .c_str());
-  ImGui::ProgressBar(static_cast<float>(*session.frame().opening));
-  if (session.frame().run > 0 &&
-      controls.button("opening.cancel", "Cancel", "Keeps the former gas (Esc)",
-                      ImGui::GetContentRegionAvail().x)) {
+  const Frame& frame = session.frame();
+  std::string text = "Placing " + counted(static_cast<std::size_t>(scene.particles.count),
+                                          scene.dimension() == 2 ? "disk" : "sphere");
+  double done = frame.opening.value_or(0.0);
+  const char* help = "Keeps the former gas (Esc)";
+  if (frame.bound_for) {
+    text = "Running to t = " + number_text(*frame.bound_for);
+    done = frame.snapshot.time / *frame.bound_for;
+    help = "Stays at the time reached (Esc)";
+  }
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::ProgressBar(static_cast<float>(done));
+  if (frame.run > 0 &&
+      controls.button("opening.cancel", "Cancel", help, ImGui::GetContentRegionAvail().x)) {
     session.cancel_open();
   }
   ImGui::End();
@@ -153,7 +160,7 @@ constexpr std::array<KeyLine, 34> kKeyLines = {{
     {"R   Shift + R", "restart; with a new seed"},
     {"+  −", "faster, slower"},
     {"S", "sound of the collisions"},
-    {"G", "gallery; / searches it"},
+    {"G", "gallery; letters search it"},
     {"[  ]", "previous scene, next scene"},
     {"Ctrl + Z   Ctrl + Y", "undo, redo"},
     {"Ctrl + Q", "quit"},
@@ -165,7 +172,7 @@ constexpr std::array<KeyLine, 34> kKeyLines = {{
     {"V", "path of the picked particle"},
     {"Tab", "hide or show the panels"},
     {"L", "lecture: large type, three sliders and a plot"},
-    {"D  K  W", "lecture: pen, pointer with a trail, stopwatch"},
+    {"D  E  K  W", "lecture: pen, wipe, pointer with a trail, stopwatch"},
     {"F11", "full screen"},
     {"1 to 8", "heat, cool, kick, throw, add particles; draw balls, walls, erase"},
     {"Esc", "close the open panel, end a tool, or deselect the particle"},

@@ -23,8 +23,8 @@ inline bool contains(const Area& area, ImVec2 place) {
 
 /// Draws a line with hints at the lower edge of the area.
 void hint_line(const std::string& text, const Area& area);
-/// Draws the progress of the scene that is being opened, in the middle of the area, with a button
-/// that cancels it if there is a former gas.
+/// Draws the progress of the scene that is being opened, or of its way to the time at which it was
+/// saved, in the middle of the area. A button ends it.
 void opening_note(Session& session, Controls& controls, const Area& area);
 /// Shows each message of the session for some seconds, longer texts for longer. The message stays
 /// while the mouse is over it.

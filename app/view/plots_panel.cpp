@@ -35,7 +35,18 @@ static void legend(const LivePlot& plot, const PlotStyle& style) {
   if (height > 0.0f) ImGui::Dummy(ImVec2(0.0f, height));
 }
 
-void draw_plot(const LivePlot& plot, float height) {
+// The values of the curves at the mouse, with a line at their x.
+static void show_values(const LivePlot& plot, const PlotFrame& frame, ImU32 ink) {
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  if (!ImGui::IsItemHovered() || !frame.contains(mouse) || ImGui::IsMouseDown(0)) return;
+  const std::string values = readout(plot, frame, mouse);
+  if (values.empty()) return;
+  ImGui::GetWindowDrawList()->AddLine(ImVec2(mouse.x, frame.low.y), ImVec2(mouse.x, frame.high.y),
+                                      ink);
+  ImGui::SetTooltip("%s", values.c_str());
+}
+
+std::optional<PlotFrame> draw_plot(const LivePlot& plot, float height, bool reads) {
   const float unit = ImGui::GetFontSize();
   const PlotStyle style{.text = {ImGui::GetFont(), unit},
                         .numbers = {ImGui::GetFont(), 0.8f * unit},
@@ -60,9 +71,11 @@ void draw_plot(const LivePlot& plot, float height) {
 
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
-  draw_axes_and_curves(*ImGui::GetWindowDrawList(), plot, corner,
-                       ImVec2(corner.x + width, corner.y + height), style);
+  const auto frame = draw_axes_and_curves(*ImGui::GetWindowDrawList(), plot, corner,
+                                          ImVec2(corner.x + width, corner.y + height), style);
   ImGui::Dummy(ImVec2(width, height));
+  if (frame && reads) show_values(plot, *frame, style.faint);
+  return frame;
 }
 
 std::string csv_of(const LivePlot& plot) {

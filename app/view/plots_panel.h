@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,9 @@
 namespace clatter {
 
 /// Draws a plot with axes and legend, `height` pixels high, over the width of the ImGui window.
-void draw_plot(const LivePlot& plot, float height);
+/// With `reads` it shows the values of the curves at the mouse. Returns the area inside the axes;
+/// absent: none.
+std::optional<PlotFrame> draw_plot(const LivePlot& plot, float height, bool reads = true);
 
 /// The data of a plot as CSV, one table per curve.
 std::string csv_of(const LivePlot& plot);

@@ -27,8 +27,8 @@ Answer unsaved_question(Controls& controls, const std::string& title, Answer typ
     const char* help;
     Answer answer;
   } kAnswers[] = {
-      {"unsaved.save", "Save", "Writes the scene with its changes (Enter)", Answer::Save},
-      {"unsaved.discard", "Discard", "The changes are lost", Answer::Discard},
+      {"unsaved.save", "Save", "Writes the scene with its changes (S)", Answer::Save},
+      {"unsaved.discard", "Discard", "The changes are lost (D)", Answer::Discard},
       {"unsaved.cancel", "Cancel", "Keeps the gas in the window (Esc)", Answer::Cancel}};
   if (!ImGui::IsPopupOpen(kName)) ImGui::OpenPopup(kName);
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
@@ -144,7 +144,8 @@ void SceneOpener::use(Answer answer, Theme theme) {
 }
 
 void SceneOpener::press(const KeyPress& press) {
-  if (press.key == GLFW_KEY_ENTER) typed_answer_ = Answer::Save;
+  if (press.sign == 's') typed_answer_ = Answer::Save;
+  if (press.sign == 'd') typed_answer_ = Answer::Discard;
   if (press.key == GLFW_KEY_ESCAPE) typed_answer_ = Answer::Cancel;
 }
 

@@ -78,12 +78,29 @@ bool Session::update() {
     answered(now);
     if (const auto act = std::exchange(postponed_, nullptr)) (this->*act)();
   }
+  watch_heat();
   constexpr std::chrono::milliseconds kStatus{100};
   if (log_.on() && now.scene && (Clock::now() - logged_ > kStatus || now.state_hash)) {
     logged_ = Clock::now();
     log_.event("status", status(now));
   }
   return true;
+}
+
+// Reports once in a run that the gas heats without bound, long before its speeds diverge.
+void Session::watch_heat() {
+  constexpr double kMuch = 100.0;
+  const double now = frame().snapshot.temperature;
+  if (frame().run != heated_run_) {
+    heated_run_ = frame().run;
+    heat_limit_ = kMuch * now;
+  }
+  if (!(heat_limit_ > 0.0) || now < heat_limit_) return;
+  heat_limit_ = 0.0;
+  report(
+      fmt::format("T is {} times as high as at the start: the gas gains more energy than its "
+                  "collisions lose",
+                  kMuch));
 }
 
 static Scene without_changes(Scene scene) {
@@ -97,7 +114,8 @@ void Session::answered(const Frame& now) {
   jumped_to_.reset();
   speed_ = now.speed;
   seed_ = now.seed;
-  if (before_ && before_->run == now.run) {
+  const bool refused_scene = before_ && before_->run == now.run;
+  if (refused_scene) {
     gases_ = before_->gases;
     view_ = before_->view;
     ++views_;
@@ -115,6 +133,20 @@ void Session::answered(const Frame& now) {
     gases_[k].scene.particles.start = gases_[k].opened.particles.start;
   }
   wishes_ = false;
+  remove_refused(refused_scene);
+}
+
+// Whether a scene of the gallery is this one.
+static bool is_of_gallery(const Scene& scene) {
+  return std::ranges::any_of(embedded_scenes(), [&](const EmbeddedFile& file) {
+    const Scene known = load_gallery_scene(file);
+    return known.title == scene.title && scene_to_toml(known) == scene_to_toml(scene);
+  });
+}
+
+// Notes a change by hand. Work that lasts is more than an experiment.
+void Session::note_work(bool lasts) {
+  unsaved_ = unsaved_ || lasts || own_;
 }
 
 void Session::open(const Scene& scene, std::uint64_t seed, bool plays,
@@ -144,7 +176,9 @@ void Session::start(const OpenedScene& opened, const char* event,
   gas_ = 0;
   seed_ = opened.seed;
   unsaved_ = opened.unsaved;
+  own_ = !is_of_gallery(opened.opened);
   view_ = scene().view;
+  const double at = std::exchange(view_.open_at, std::nullopt).value_or(0.0);
   speed_ = view_.speed;
   ++views_;
   log_.event(event, {{"title", scene().title},
@@ -152,12 +186,17 @@ void Session::start(const OpenedScene& opened, const char* event,
                      {"dimension", scene().dimension()},
                      {"gases", gases_.size()},
                      {"command", sent_ + 1}});
-  send_open(scene(), false);
+  send_open(scene(), false, {}, at);
+  if (at > 0.0) {
+    report(fmt::format("Opened at t = {}, where it was saved. R starts it from t = 0",
+                       number_text(at)));
+  }
 }
 
 // Opens a scene of the selected gas. The other gases start again with it.
-void Session::send_open(const Scene& scene, bool keeps_gas, const VecX& shift) {
+void Session::send_open(const Scene& scene, bool keeps_gas, const VecX& shift, double at) {
   command::Open open{scene, seed_, plays_, keeps_gas, shift};
+  open.at = at;
   open.gas = gas_;
   for (std::size_t k = 0; k < gases_.size(); ++k) {
     if (k == gas_) continue;
@@ -222,6 +261,7 @@ Scene Session::recorded(const Frame& gas) const {
   Scene scene = *gas.started;
   scene.changes = gas.scene->changes;
   scene = as_shown(std::move(scene));
+  if (gas.snapshot.time > 0.0) scene.view.open_at = gas.snapshot.time;
   // Roughness may have been switched on later: the scene at the start has no spins to show.
   if (!scene.spins()) scene.view.hide_spins();
   return scene;
@@ -336,7 +376,7 @@ void Session::go_to_head() {
 void Session::move_change(std::size_t number, double time) {
   log_.event("move_change", {{"number", number}, {"to", time}, {"command", sent_ + 1}});
   send(command::MoveChange{number, time});
-  unsaved_ = true;
+  note_work(true);
   remember({.fork = ++forks_});
 }
 
@@ -348,7 +388,7 @@ void Session::exchange_futures() {
 void Session::send_exchange() {
   log_.event("exchange_futures", {{"command", sent_ + 1}});
   send(command::ExchangeFutures{});
-  unsaved_ = true;
+  note_work(false);
 }
 
 void Session::set_speed(double speed) {
@@ -369,7 +409,7 @@ void Session::change_speed(bool faster) {
 bool Session::set(const std::vector<Override>& settings, const VecX& shift) {
   try {
     selected().scene = with_settings(scene(), settings);
-    wishes_ = unsaved_ = true;
+    wishes_ = true;
   } catch (const UserError& error) {
     report(error.problem() + "; " + error.advice());
     return false;
@@ -379,8 +419,10 @@ bool Session::set(const std::vector<Override>& settings, const VecX& shift) {
   nlohmann::json keys;
   for (const Override& setting : settings) keys[setting.key] = setting.value;
   log_.event("set", {{"keys", keys}, {"command", sent_ + 1}});
-  const auto live = [](const Override& setting) { return may_change_live(setting.key); };
-  if (std::ranges::all_of(settings, live)) {
+  const bool live = std::ranges::all_of(
+      settings, [](const Override& setting) { return may_change_live(setting.key); });
+  note_work(!live);
+  if (live) {
     note_fork();
     send(command::SetLaws{settings});
   } else {
@@ -415,14 +457,14 @@ void Session::nudge(const Nudge& nudge) {
     report(error.problem() + "; " + error.advice());
     return;
   }
-  unsaved_ = true;
+  note_work(false);
   note_fork();
   log_.event("nudge", {{"nudge", keys_of(nudge)}, {"command", sent_ + 1}});
   send(command::Nudge{nudge});
 }
 
 void Session::add(const Puff& puff) {
-  unsaved_ = true;
+  note_work(true);
   note_fork();
   log_.event("puff", {{"count", puff.count},
                       {"centre", std::vector(puff.centre.begin(), puff.centre.end())},
@@ -434,7 +476,7 @@ void Session::add(const Puff& puff) {
 }
 
 void Session::reverse() {
-  unsaved_ = true;
+  note_work(false);
   note_fork();
   log_.event("reverse", {{"command", sent_ + 1}});
   send(command::Reverse{});
@@ -442,14 +484,15 @@ void Session::reverse() {
 }
 
 void Session::move_piston(double position, double duration) {
-  unsaved_ = true;
+  note_work(false);
   note_fork();
   log_.event("piston", {{"position", position}, {"duration", duration}, {"command", sent_ + 1}});
   send(command::MovePiston{position, duration});
 }
 
 void Session::set_view(const View& view) {
-  const bool observes_anew = !view.averages_like(view_) || view.trails != view_.trails;
+  const bool observes_anew =
+      !view.averages_like(view_) || view.trails != view_.trails || view.tracer != view_.tracer;
   if (view.azimuth != view_.azimuth || view.elevation != view_.elevation) {
     log_.event("turn", {{"azimuth", view.azimuth}, {"elevation", view.elevation}});
   }

@@ -33,6 +33,8 @@ struct Edit {
   /// from the run.
   std::vector<Change> acts = {};
   std::vector<Change> undone_acts = {};  ///< with their times
+  bool made =
+      false;  ///< whether the engine has made the change; an entry that it refuses is removed
 };
 
 /// The simulation in the window: its scene, its view and the undo history. It sends commands to the
@@ -54,12 +56,13 @@ class Session {
   const Scene& opened() const { return selected().opened; }
   /// The current view.
   const View& view() const { return view_; }
-  /// The scene that reproduces the run of a gas: its start, with all later changes. Requires a
-  /// frame of this gas.
+  /// The scene that reproduces the run of a gas: its start, with all later changes. The window
+  /// opens it at the time of the frame. Requires a frame of this gas.
   Scene recorded(const Frame& gas) const;
 
-  /// Opens and starts a scene, and those `beside` it in step, which get its view. Undo starts the
-  /// former scene with its changes, without a comparison. Without `plays` the scene is paused.
+  /// Opens and starts a scene, at View::open_at, and those `beside` it in step, which get its view.
+  /// Undo starts the former scene with its changes, without a comparison. Without `plays` the scene
+  /// is paused.
   void open(const Scene& scene, std::uint64_t seed, bool plays = true,
             const std::vector<Scene>& others = {});
   /// Number of gases.
@@ -141,7 +144,9 @@ class Session {
   /// Applies the last reverted entry again.
   void redo();
 
-  /// Whether changes of the gas by hand would be lost with it.
+  /// Whether the window holds work that would be lost with the gas: changes of a scene that is not
+  /// of the gallery, added particles, moved changes, and settings that make another scene. Live
+  /// changes of a gallery scene are experiments.
   bool unsaved() const { return unsaved_; }
   /// The changes so far are in a file, or given up.
   void set_saved() { unsaved_ = false; }
@@ -182,6 +187,9 @@ class Session {
   };
 
   void answered(const Frame& now);
+  void remove_refused(bool refused_scene);
+  void note_work(bool lasts);
+  void watch_heat();
   void send(Command command);
   void apply(Edit& edit, bool again);
   void note_fork();
@@ -192,7 +200,7 @@ class Session {
   void send_exchange();
   double present() const;
   void start(const OpenedScene& opened, const char* event, const std::vector<Scene>& others = {});
-  void send_open(const Scene& scene, bool keeps_gas, const VecX& shift = {});
+  void send_open(const Scene& scene, bool keeps_gas, const VecX& shift = {}, double at = 0.0);
   Scene as_shown(Scene scene) const;
   Scene restarted(const Gas& gas) const;
   OpenedScene present_scene() const;
@@ -222,7 +230,10 @@ class Session {
   std::vector<Edit> undone_;
   void (Session::*postponed_)() = nullptr;  // undo() or redo() that waits for the engine
   std::uint64_t forks_ = 0;  // changes in the past; the last one has the present two futures
-  bool unsaved_ = false;     // changes by hand that no file has
+  bool unsaved_ = false;     // work that no file has
+  bool own_ = false;         // the opened scene is not of the gallery
+  std::uint64_t heated_run_ = 0;  // the run of heat_limit_
+  double heat_limit_ = 0.0;  // temperature that is reported; 0: it was, or the gas started at rest
   bool forked_ = false;      // since the last entry of the undo history
   std::string message_;
   std::uint64_t told_ = 0;

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "app/view/session.h"
+#include "engine/error.h"
+#include "engine/scene/scene_file.h"
 
 namespace clatter {
 
@@ -17,22 +19,46 @@ void Session::remember(Edit edit) {
   undone_.clear();
 }
 
+// Whether a change of a run is an act. A puff of the run has only the particles that found room.
+static bool is_act(const Change& change, const Change& act) {
+  std::optional<Puff> puff = change.puff;
+  if (puff && act.puff) puff->count = act.puff->count;
+  return change.nudge == act.nudge && puff == act.puff && change.piston == act.piston &&
+         change.reverse == act.reverse && change.set.empty();
+}
+
 // The last changes of a run that are these acts, and are removed from it.
 static std::vector<Change> take_acts(std::vector<Change>& changes,
                                      const std::vector<Change>& acts) {
   std::vector<Change> taken;
   for (auto act = acts.rbegin(); act != acts.rend(); ++act) {
-    const auto is_it = [&](const Change& change) {
-      return change.nudge == act->nudge && change.puff == act->puff &&
-             change.piston == act->piston && change.reverse == act->reverse &&
-             change.set.empty();
-    };
+    const auto is_it = [&](const Change& change) { return is_act(change, *act); };
     const auto after = std::find_if(changes.rbegin(), changes.rend(), is_it).base();
     if (after == changes.begin()) continue;
     taken.insert(taken.begin(), *(after - 1));
     changes.erase(after - 1);
   }
   return taken;
+}
+
+// Whether a scene has the former values of all keys of an entry.
+static bool is_unchanged(const Scene& scene, const Edit& edit) {
+  try {
+    return scene_to_toml(with_settings(scene, edit.before)) == scene_to_toml(scene);
+  } catch (const UserError&) {
+    return false;
+  }
+}
+
+// Removes new entries whose change the engine has refused: there is nothing to undo.
+void Session::remove_refused(bool refused_scene) {
+  std::erase_if(done_, [&](Edit& edit) {
+    if (std::exchange(edit.made, true) || edit.gas >= gases_.size()) return false;
+    if (!edit.scenes.empty()) return refused_scene;
+    std::vector<Change> changes = gases_[edit.gas].scene.changes;
+    if (!edit.acts.empty()) return take_acts(changes, edit.acts).empty();
+    return !edit.before.empty() && is_unchanged(gases_[edit.gas].scene, edit);
+  });
 }
 
 // Removes the acts of an entry from the run, or puts them back at their times. The run continues
@@ -48,7 +74,7 @@ void Session::exchange_acts(Edit& edit, bool again) {
   const bool plays = plays_;
   send(command::ReplaceChanges{std::move(changes), from});
   if (plays) play(true);
-  unsaved_ = true;
+  note_work(false);
   edit.fork = ++forks_;
 }
 

@@ -133,10 +133,11 @@ struct Open {
   VecX shift = {};                     ///< displacement of the scene's kept particles; empty: none
   std::vector<GasToOpen> others = {};  ///< the other gases, in order of their numbers
   std::size_t gas = 0;                 ///< number of the scene's gas, which is selected
+  double at = 0.0;                     ///< simulation time >= 0 to which the gas goes at once
 };
 
 /// Abandons the scene that is being opened, and the commands after its Open. The former gas
-/// remains.
+/// remains. Also ends the way to Open::at, at the time that the gas has reached.
 struct CancelOpen {};
 
 }  // namespace command

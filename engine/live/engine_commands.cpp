@@ -20,6 +20,13 @@ bool supersedes(const Command& later, const Command& earlier) {
   return a && b && std::ranges::equal(a->laws, b->laws, {}, &Override::key, &Override::key);
 }
 
+// Whether a command abandons the way to another time.
+bool ends_way(const Command& command) {
+  const auto* open = std::get_if<command::Open>(&command);
+  return std::holds_alternative<command::Jump>(command) ||
+         std::holds_alternative<command::CancelOpen>(command) || (open && !open->keeps_gas);
+}
+
 }  // namespace
 
 // Commands wait while a scene is being opened, and while the run is on its way to another time.
@@ -29,9 +36,7 @@ void EngineWork::execute_all() {
   std::ranges::move(asked, std::back_inserter(waiting_));
   if (opens()) abandon();
   if (any) attempt([this] { end_rewind(); });
-  if (is_away() && !waiting_.empty() && std::holds_alternative<command::Jump>(waiting_.front())) {
-    errand_ = {};
-  }
+  if (is_away() && !waiting_.empty() && ends_way(waiting_.front())) errand_ = {};
   while (!has_errand() && !waiting_.empty() && !commands_.closed()) {
     const Command next = std::move(waiting_.front());
     waiting_.pop_front();

@@ -112,6 +112,7 @@ void EngineWork::finish_opening() {
   pace_.set_speed(asked.scene.view.speed);
   pace_.set_factors(asked.scene.view.pace);
   if (asked.plays) motion_ = Playing{};
+  if (asked.at > 0.0) errand_ = Travelling{.to = asked.at, .forward = true};
   ++runs_;
   loop_.reset();
   stop_.clear();
@@ -157,11 +158,20 @@ void EngineWork::go_on() {
     if (std::holds_alternative<Searching>(errand_) && !search(pauses)) return;
     arrived = travel(pauses);
   });
-  if (possible && !arrived) return;
+  if (possible && !arrived) return show_way();
   errand_ = {};
   pace_.restart();
   publish();
   execute_all();
+}
+
+// A frame of the way to Open::at, now and then.
+void EngineWork::show_way() {
+  constexpr std::chrono::milliseconds kBetween{250};
+  const auto* way = std::get_if<Travelling>(&errand_);
+  if (!way || !way->forward || Clock::now() - way_shown_ < kBetween) return;
+  way_shown_ = Clock::now();
+  publish();
 }
 
 void EngineWork::begin_rewind(PlayingBackwards& motion) {
@@ -301,6 +311,9 @@ void EngineWork::send_frame() {
   if (const auto* opening = std::get_if<OpeningGases>(&errand_)) {
     frame.opening = opening->progress();
   }
+  frame.bound_for.reset();
+  const auto* way = std::get_if<Travelling>(&errand_);
+  if (way && way->forward) frame.bound_for = way->to;
   frame.run = runs_;
   frame.handled = handled_;
   frame.backwards = in<PlayingBackwards>();

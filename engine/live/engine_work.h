@@ -83,6 +83,7 @@ class EngineWork {
   struct Travelling {
     double to;                                                  // simulation time
     std::optional<std::array<std::uint32_t, 2>> partners = {};  // that have just collided there
+    bool forward = false;                                       // to Open::at, with frames
   };
 
   template <class State>
@@ -144,6 +145,7 @@ class EngineWork {
   bool search(const StopRequest& pause);
   bool travel(const StopRequest& pause);
   void go_on();
+  void show_way();
   void go_to(double time);
 
   // Motions.
@@ -174,6 +176,7 @@ class EngineWork {
   PlayedStretches played_;
   std::variant<Halted, Playing, PlayingBackwards, Stepping, SteppingToCollision> motion_;
   std::variant<std::monostate, OpeningGases, Searching, Travelling> errand_;
+  Clock::time_point way_shown_;                           // last frame of the way to Open::at
   std::optional<std::array<double, 2>> loop_;             // repeated simulation times
   std::optional<std::array<std::uint32_t, 2>> partners_;  // of the collision just now
   std::uint64_t slice_ = 256;                             // steps per slice, adapted while running

@@ -109,10 +109,31 @@ void ScheduledRun<D>::halt_within(double delay) {
   }
 }
 
+// The longest period of a wall that moves; 0: none does.
+static double longest_period(const Scene& scene) {
+  double period = 0.0;
+  for (const std::optional<Wall>& wall : scene.walls) {
+    const bool moves = wall && wall->stroke > 0.0 && wall->frequency > 0.0;
+    if (moves) period = std::max(period, 1.0 / wall->frequency);
+  }
+  return period;
+}
+
+// A moving wall of another stroke is at another place. If a particle is there, the change waits for
+// a moment of the period at which none is.
 template <int D>
 void ScheduledRun<D>::change(const std::vector<Override>& laws, double delay) {
+  constexpr int kMoments = 16;  // of a period
   halt_within(delay);
-  change_here(laws);
+  const double between = longest_period(this->laws()) / kMoments;
+  for (int moment = 0;; ++moment) {
+    try {
+      return change_here(laws);
+    } catch (const PhysicalStop&) {
+      if (moment == kMoments || between == 0.0) throw;
+    }
+    halt_at(round_time(simulation_->time() + 0.5 * between, 0.5 * between));
+  }
 }
 
 template <int D>

@@ -179,6 +179,10 @@ inline constexpr auto kViewKeys = key_table(
       "Time of title and caption at the start of a film, while the gas moves. They fade out in the "
       "last half second. Without a value: none.",
       "render"},
+     {"open_at", "t",
+      "Time at which the window opens the scene. The run goes there at once. A scene that the "
+      "window saves has the time of its picture. Without a value: the start.",
+      "view"},
      {"azimuth", "deg",
       "Of spheres: direction of the viewer, as an angle about the y axis. 0 is along z, 90 along "
       "x."},
@@ -220,6 +224,7 @@ void visit_view(Visitor& io, View& view, int dimension, const std::vector<std::s
   io.choice(kViewKeys.at("plots"), view.plots, kFilmPlots);
   io.value(kViewKeys.at("trails"), view.trails, times);
   io.value(kViewKeys.at("card"), view.card, times);
+  io.value(kViewKeys.at("open_at"), view.open_at, times);
   if (dimension == 3) {
     io.value(kViewKeys.at("azimuth"), view.azimuth, kAzimuths);
     io.value(kViewKeys.at("elevation"), view.elevation, kElevations);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "engine/text.h"
 #include "render/colour_range.h"
@@ -37,17 +38,6 @@ std::vector<Tick> ticks_of(const PlotScale& scale, int count) {
   }
   return ticks;
 }
-
-// The area inside the axes of a plot, and its scales.
-struct PlotFrame {
-  ImVec2 low, high;  // upper left and lower right corner, window units
-  PlotScale x, y;
-
-  ImVec2 at(const Vec2& point) const {
-    return {low.x + static_cast<float>(x.share(point.x())) * (high.x - low.x),
-            high.y - static_cast<float>(y.share(point.y())) * (high.y - low.y)};
-  }
-};
 
 void draw_axes(ImDrawList& list, const PlotFrame& frame, const LivePlot& plot,
                const PlotStyle& style) {
@@ -152,6 +142,51 @@ double PlotScale::place(double value) const {
   return logarithmic ? std::log10(std::max(value, floor)) : value;
 }
 
+double PlotScale::value(double share) const {
+  const double place = low + share * (high - low);
+  return logarithmic ? std::pow(10.0, place) : place;
+}
+
+ImVec2 PlotFrame::at(const Vec2& point) const {
+  return {low.x + static_cast<float>(x.share(point.x())) * (high.x - low.x),
+          high.y - static_cast<float>(y.share(point.y())) * (high.y - low.y)};
+}
+
+Vec2 PlotFrame::point(ImVec2 place) const {
+  return {x.value((place.x - low.x) / (high.x - low.x)),
+          y.value((high.y - place.y) / (high.y - low.y))};
+}
+
+bool PlotFrame::contains(ImVec2 place) const {
+  return place.x >= low.x && place.x < high.x && place.y >= low.y && place.y < high.y;
+}
+
+std::string slope_text(const PlotFrame& frame, const Vec2& from, const Vec2& to) {
+  const bool log_x = frame.x.logarithmic, log_y = frame.y.logarithmic;
+  const double run = frame.x.place(to.x()) - frame.x.place(from.x());
+  const double rise = frame.y.place(to.y()) - frame.y.place(from.y());
+  if (run == 0.0) return {};
+  const double slope = rise / run;
+  if (log_x && log_y) return fmt::format("exponent {:.3g}", slope);
+  if (log_y) return fmt::format("rate {:.3g}", slope * std::numbers::ln10);
+  if (log_x) return fmt::format("{:.3g} per decade", slope);
+  return fmt::format("slope {:.3g}", slope);
+}
+
+std::string readout(const LivePlot& plot, const PlotFrame& frame, ImVec2 place) {
+  const double x = frame.point(place).x();
+  std::string text;
+  for (const Curve& curve : plot.curves) {
+    const auto distance = [&](const Vec2& point) {
+      return std::fabs(frame.x.place(point.x()) - frame.x.place(x));
+    };
+    const auto near = std::ranges::min_element(curve.points, {}, distance);
+    if (near == curve.points.end() || !std::isfinite(near->y())) continue;
+    text += fmt::format("\n{} = {:.4g}", curve.name.empty() ? plot.title : curve.name, near->y());
+  }
+  return text.empty() ? text : fmt::format("{} = {:.4g}", plot.x_label, x) + text;
+}
+
 // Adds room around the data: a linear axis has at least the length `span`. Without data the ends
 // are infinite, and become 0 and 1.
 static void widen(PlotScale& scale, bool from_zero, double span) {
@@ -220,13 +255,13 @@ void draw_entry(ImDrawList& list, const LegendEntry& entry, ImVec2 corner, const
   list.AddText(style.text.face, unit, ImVec2(at.x + unit, at.y), style.faint, curve.name.c_str());
 }
 
-void draw_axes_and_curves(ImDrawList& list, const LivePlot& plot, ImVec2 low, ImVec2 high,
-                          const PlotStyle& style) {
+std::optional<PlotFrame> draw_axes_and_curves(ImDrawList& list, const LivePlot& plot, ImVec2 low,
+                                              ImVec2 high, const PlotStyle& style) {
   const float unit = style.text.size;
   const auto [x, y] = scales_of(plot);
   const PlotFrame frame{ImVec2(low.x + 3.0f * unit, low.y + 0.4f * unit),
                         ImVec2(high.x - 0.5f * unit, high.y - 2.1f * unit), x, y};
-  if (frame.low.x >= frame.high.x || frame.low.y >= frame.high.y) return;
+  if (frame.low.x >= frame.high.x || frame.low.y >= frame.high.y) return std::nullopt;
   draw_axes(list, frame, plot, style);
   list.PushClipRect(frame.low, ImVec2(frame.high.x, frame.high.y + 1.0f), true);
   for (const Curve& curve : plot.curves) {
@@ -234,6 +269,7 @@ void draw_axes_and_curves(ImDrawList& list, const LivePlot& plot, ImVec2 low, Im
     draw_curve(list, frame, curve, unit);
   }
   list.PopClipRect();
+  return frame;
 }
 
 }  // namespace clatter

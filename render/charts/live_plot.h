@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,10 +48,33 @@ struct PlotScale {
   double place(double value) const;
   /// Coordinate of a value as a fraction of the length of the axis; 0 at `low`, 1 at `high`.
   double share(double value) const { return (place(value) - low) / (high - low); }
+  /// Value at a fraction of the length of the axis, as of share().
+  double value(double share) const;
 };
 
 /// The x and y axes of a plot. Their ranges contain all points that can be shown.
 std::array<PlotScale, 2> scales_of(const LivePlot& plot);
+
+/// The area inside the axes of a plot, and its scales.
+struct PlotFrame {
+  ImVec2 low, high;  ///< upper left and lower right corner, window units
+  PlotScale x, y;
+
+  /// Place of a point of the plot.
+  ImVec2 at(const Vec2& point) const;
+  /// Point of the plot at a place.
+  Vec2 point(ImVec2 place) const;
+  /// Whether a place is in the area.
+  bool contains(ImVec2 place) const;
+};
+
+/// The slope between two points of a plot, with its meaning on the scales of the plot: a quotient,
+/// an exponent, a rate or a change per decade. Empty if both have the same x.
+std::string slope_text(const PlotFrame& frame, const Vec2& from, const Vec2& to);
+
+/// The values of the curves at the x of a place, one line for each, below that of x. It takes the
+/// nearest point of each curve. Empty without curves.
+std::string readout(const LivePlot& plot, const PlotFrame& frame, ImVec2 place);
 
 /// Letters and colours of plots.
 struct PlotStyle {
@@ -73,8 +97,9 @@ std::vector<LegendEntry> legend_of(const LivePlot& plot, float width, const Plot
 /// Draws an entry of the legend with its upper left corner at `corner`.
 void draw_entry(ImDrawList& list, const LegendEntry& entry, ImVec2 corner, const PlotStyle& style);
 
-/// Draws the axes and curves of a plot between two corners of a picture, if they have room.
-void draw_axes_and_curves(ImDrawList& list, const LivePlot& plot, ImVec2 low, ImVec2 high,
-                          const PlotStyle& style);
+/// Draws the axes and curves of a plot between two corners of a picture, if they have room. Returns
+/// their area; absent: they have none.
+std::optional<PlotFrame> draw_axes_and_curves(ImDrawList& list, const LivePlot& plot, ImVec2 low,
+                                              ImVec2 high, const PlotStyle& style);
 
 }  // namespace clatter

@@ -55,6 +55,14 @@ bool is_sum(const Snapshot& snapshot, const View& view) {
 
 }  // namespace
 
+// The duration of trails. Those of very fast particles would fill the picture, so a particle of the
+// mean square speed has a trail of at most half of the narrowest side.
+static double trail_time(const Snapshot& gas, double asked) {
+  constexpr double kLongest = 0.5;  // of the side
+  const double speed = std::sqrt(static_cast<double>(gas.box.size()) * gas.temperature);
+  return std::min(asked, kLongest * gas.box.minCoeff() / std::max(speed, 1e-300));
+}
+
 Renderer::Renderer(const Gl& gl, int samples, bool transparent, StopRequest stop)
     : gl_(&gl),
       samples_(samples),
@@ -149,7 +157,8 @@ void Renderer::draw_disks(const Snapshot& snapshot, const Projection& projection
   const DiskColours colours = disk_colours(snapshot, view, legends, theme);
   blend_in_light(true);
   if (view.trails)
-    trails_.draw(snapshot, snapshot.flights, projection, colours, *view.trails, tiling);
+    trails_.draw(snapshot, snapshot.flights, projection, colours,
+                 trail_time(snapshot, *view.trails), tiling);
   pause(projection);
   if (view.opacity > 0.0) disks_.draw(snapshot, projection, colours, tiling);
   if (view.tracer) {
@@ -259,8 +268,9 @@ void Renderer::draw_lines(const Snapshot& snapshot, const Projection& projection
   LineLayer& lines = space_->lines;
   const double width = std::max(1.0 * projection.samples, 0.0025 * projection.drawn().height);
   if (view.trails) {
-    lines.draw(trail_lines(snapshot, snapshot.flights, colours, *view.trails, width), snapshot.box,
-               projection, eye);
+    lines.draw(
+        trail_lines(snapshot, snapshot.flights, colours, trail_time(snapshot, *view.trails), width),
+        snapshot.box, projection, eye);
   }
   if (view.tracer) {
     gl_->Disable(GL_DEPTH_TEST);

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -116,6 +117,40 @@ TEST_CASE("Plots: logarithmic axes have powers of ten where these are") {
   const DrawnPlot drawn(plot);
   CHECK(drawn.mark().x() == doctest::Approx(drawn.text("100").middle_x()).epsilon(0.01));
   CHECK(drawn.mark().y() == doctest::Approx(drawn.text("0.01").middle_y()).epsilon(0.01));
+}
+
+// An area of 200 x 100 pixels.
+static PlotFrame frame_over(const PlotScale& x, const PlotScale& y) {
+  return {ImVec2(50.0f, 20.0f), ImVec2(250.0f, 120.0f), x, y};
+}
+
+TEST_CASE("Plot: a place of its area is a point, and back") {
+  const PlotFrame frame = frame_over({0.0, 4.0}, {-1.0, 1.0, true});
+  const Vec2 point = frame.point(ImVec2(150.0f, 70.0f));
+  CHECK(point.x() == doctest::Approx(2.0));
+  CHECK(point.y() == doctest::Approx(1.0));
+  const ImVec2 place = frame.at({3.0, 10.0});
+  CHECK(place.x == doctest::Approx(200.0f));
+  CHECK(place.y == doctest::Approx(20.0f));
+}
+
+TEST_CASE("Plot: a slope is a quotient, an exponent, a rate or a change per decade") {
+  const PlotScale linear{0.0, 10.0}, decades{0.0, 3.0, true};
+  CHECK(slope_text(frame_over(linear, linear), {1.0, 2.0}, {5.0, 8.0}) == "slope 1.5");
+  // y = x^-2, and y = exp(-x / 2).
+  CHECK(slope_text(frame_over(decades, decades), {1.0, 1.0}, {10.0, 0.01}) == "exponent -2");
+  CHECK(slope_text(frame_over(linear, decades), {0.0, 1.0}, {4.0, std::exp(-2.0)}) == "rate -0.5");
+  CHECK(slope_text(frame_over(decades, linear), {1.0, 2.0}, {100.0, 8.0}) == "3 per decade");
+  CHECK(slope_text(frame_over(linear, linear), {1.0, 2.0}, {1.0, 8.0}).empty());
+}
+
+TEST_CASE("Plot: the values at a place are those of the nearest points") {
+  LivePlot plot{"Temperature", "time t", false, false, {}};
+  CHECK(readout(plot, frame_over({0.0, 4.0}, {0.0, 1.0}), ImVec2(150.0f, 70.0f)).empty());
+  plot.curves = {{.name = "T", .colour = {}, .points = {{1.0, 0.5}, {2.25, 0.25}, {3.0, 0.125}}},
+                 {.name = "", .colour = {}, .points = {{0.0, 7.0}}}};
+  CHECK(readout(plot, frame_over({0.0, 4.0}, {0.0, 1.0}), ImVec2(150.0f, 70.0f)) ==
+        "time t = 2\nT = 0.25\nTemperature = 7");
 }
 
 }  // namespace clatter

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <imgui.h>
 
+#include <cctype>
 #include <chrono>
 #include <fstream>
 #include <thread>
@@ -61,6 +62,14 @@ void OffscreenWindow::press(char letter) {
 
 void OffscreenWindow::press_key(int key) {
   input_.press({.key = key});
+  draw();
+}
+
+void OffscreenWindow::type_all(const std::string& signs) {
+  for (const char sign : signs) {
+    input_.press({.key = std::toupper(sign), .sign = sign});
+    input_.type(static_cast<unsigned char>(sign));
+  }
   draw();
 }
 

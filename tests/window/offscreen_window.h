@@ -34,6 +34,8 @@ class OffscreenWindow {
   void press(char letter);
   /// Presses the key with this code of GLFW.
   void press_key(int key);
+  /// Presses the keys of letters, and types their signs, all before the next picture.
+  void type_all(const std::string& signs);
   /// Types a sign of ASCII.
   void type(char sign);
   /// Holds or releases the Shift key.

@@ -60,6 +60,7 @@ TEST_CASE("Controls: a typed number beyond the range becomes its end, with its d
   CHECK(answer("particles.restitution", "1.5") == "Restitution: at most 1.000");
   CHECK(answer("tool.radius", "50") == "Radius: at most 16 a");
   CHECK(answer("tool.radius", "0.1") == "Radius: at least 0.5 a");
+  CHECK(answer("particles.restitution", "abc") == "Restitution: type a number");
 }
 
 TEST_SUITE_BEGIN("display");
@@ -67,7 +68,8 @@ TEST_SUITE_BEGIN("display");
 // Grains at rest on a floor with a small stroke. With a long stroke the floor would overlap them.
 TEST_CASE("Window: a refused change stays neither in the panels nor in the saved scene") {
   const GuiDriver driver(
-      "shaker --set walls.bottom.stroke=0.1 --set view.speed=20 --set collapse.contact_time=1e-3 "
+      "shaker --set walls.bottom.kind=sawtooth --set walls.bottom.stroke=0.1 --set view.speed=20 "
+      "--set collapse.contact_time=1e-3 "
       "--until 30.25",
       "1280x1500");
   driver.wait_for("status", 0, halted);

@@ -68,10 +68,17 @@ TEST_CASE("Film dialog: the command has all settings, and none that the format l
           .sound = true,
           .motion_blur = true,
           .transparent = true};
-  CHECK(film_command(film, {"s.toml"}, 1) == Words{"clatter", "render", "s.toml", "--seed", "1",
-                                                   "--from", "1.5", "--to", "7", "--speed", "0.1",
-                                                   "-qh", "--no-overlay", "--sound", "--shutter",
-                                                   "0.5", "--transparent", "--out", "b.webm"});
+  CHECK(film_command(film, {"s.toml"}, 1) == Words{"clatter", "render",
+                                                   "s.toml",  "--seed",
+                                                   "1",       "--from",
+                                                   "1.5",     "--to",
+                                                   "7",       "--speed",
+                                                   "0.1",     "-qh",
+                                                   "--set",   "view.overlay=false",
+                                                   "--sound", "--shutter",
+                                                   "0.5",     "--transparent",
+                                                   "--out",   "b.webm"});
+  film.overlay = true;
   film.plots = true;
   const Words plotted = film_command(film, {"s.toml"}, 1);
   const auto set = std::ranges::find(plotted, "--set");

@@ -1,5 +1,7 @@
 // Lecture mode: its sliders, plots, tools and playlists.
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -39,6 +41,46 @@ TEST_CASE("Lecture: the sliders of a scene are its restitution and drive") {
   scene.bulk_drive = BulkDrive{};
   CHECK(usual_sliders(scene) ==
         Names{"walls.top.temperature", "bulk_drive.kick_speed", "particles.restitution"});
+}
+
+TEST_CASE(
+    "Lecture: each scene has the slider of its suggestion, and a plot a third as high as the "
+    "window") {
+  for (const auto& [scene, slider] : std::vector<std::pair<std::string, std::string>>{
+           {"shaker", "walls.bottom.stroke"},
+           {"spheres_leidenfrost", "walls.bottom.stroke"},
+           {"brazil_nut", "walls.bottom.stroke"},
+           {"rough_driven", "particles.friction"},
+           {"spheres_rough", "particles.friction"},
+           {"rough_cooling", "particles.tangential_restitution"},
+           {"dense", "box.size.x"},
+           {"couette", "walls.top.surface_velocity.x"},
+           {"ratchet", "gravity.acceleration.x"},
+           {"barometer", "walls.bottom.temperature"},
+           {"conduction", "walls.right.temperature"},
+           {"mixed_atmosphere", "gravity.acceleration.y"},
+           {"bow_shock", "gravity.acceleration.x"},
+           {"vibrated", "particles.restitution"}}) {
+    CAPTURE(scene);
+    Scene played = load_scene(scene);
+    played.view.speed = 100.0;
+    OffscreenWindow window(played, 1280.0f, 720.0f, 2.0);
+    window.press('l');
+    window.press_key(GLFW_KEY_SPACE);  // a profile begins when it is first shown
+    CHECK(window.comes_to([&] { return !window.text("lecture/plot").empty(); }));
+    window.draw();
+    CHECK(window.place(slider)[3] > 0.0f);
+    CHECK(window.place("lecture.plot")[3] >= 240.0f);
+  }
+}
+
+TEST_CASE("Lecture: letters are at least 2.5 % of the height of the window") {
+  for (const auto& [width, height] : {std::pair(1280.0f, 720.0f), std::pair(1920.0f, 1080.0f)}) {
+    OffscreenWindow window(load_scene("vibrated"), width, height);
+    window.press('l');
+    CAPTURE(height);
+    CHECK(ImGui::GetIO().FontDefault->FontSize >= 0.025f * height);
+  }
 }
 
 TEST_CASE("Lecture: a stopwatch starts, stops with its times, and returns to zero") {
@@ -236,6 +278,8 @@ TEST_CASE("Window: the tools of lecture mode: timeline, stopwatch, pen, plot and
   };
   CHECK(driver.pixel(middle(0) + 30, middle(1) + 20) == std::vector<int>{0xd5, 0x5e, 0x00});
   CHECK(driver.events("pick").empty());
+  driver.click("lecture.wipe");
+  CHECK(driver.pixel(middle(0) + 30, middle(1) + 20) != std::vector<int>{0xd5, 0x5e, 0x00});
 
   // Another plot and another slider, which the saved scene has.
   driver.click("lecture.settings");

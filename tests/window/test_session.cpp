@@ -152,6 +152,169 @@ TEST_CASE("Session: undo removes the last acts that are alike, and redo brings t
   CHECK(session.frame().state_hash == heated_twice);
 }
 
+TEST_CASE("Session: a tracer has its path from its choice on, without a restart") {
+  SessionDriver driver;
+  Session& session = driver.session;
+  driver.go_to(1.0);
+  View view = session.view();
+  view.tracer = Tracer{3, 5.0};
+  session.set_view(view);
+  driver.go_to(2.0);
+  CHECK_FALSE(session.frame().snapshot.traced.empty());
+  CHECK(session.frame().run == 1);
+}
+
+TEST_CASE("Session: undo removes added particles, also where fewer than asked found room") {
+  SessionDriver driver;
+  Session& session = driver.session;
+  driver.go_to(1.0);
+  const Puff crowd{.count = 200, .centre = VecX(Vec2(8.0, 6.0)), .radius = 3.0, .temperature = 1.0};
+  session.add(crowd);
+  session.remember({.acts = {{.puff = crowd}}});
+  driver.answer();
+  const std::size_t crowded = session.frame().snapshot.count();
+  CHECK(crowded > 30);
+  CHECK(crowded < 230);
+  session.undo();
+  driver.answer();
+  CHECK(session.frame().snapshot.count() == 30);
+  session.redo();
+  driver.answer();
+  CHECK(session.frame().snapshot.count() == crowded);
+}
+
+TEST_CASE("Session: a refused change leaves nothing to undo") {
+  SessionDriver driver;
+  Session& session = driver.session;
+  driver.go_to(1.0);
+  act(driver, {heated(1.5)});
+  driver.go_to(2.0);
+  const auto refuse = [&](const std::function<void()>& change) {
+    const std::uint64_t messages = session.messages();
+    change();
+    driver.answer();
+    CHECK(session.messages() > messages);
+    CHECK(session.frame().run == 1);
+    CHECK(session.frame().snapshot.time == 2.0);
+  };
+  const std::vector<Override> at_rest = {{"walls.left.kind", "\"static\""}},
+                              far_in = {{"walls.left.kind", "\"sawtooth\""},
+                                        {"walls.left.stroke", "10.0"},
+                                        {"walls.left.frequency", "1.0"},
+                                        {"walls.left.phase", "0.9"}};
+  refuse([&] {
+    session.set(far_in);
+    session.remember({.before = at_rest, .after = far_in});
+  });
+  const Puff none{.count = 5,
+                  .centre = VecX(session.frame().snapshot.positions.col(0)),
+                  .radius = 1e-3,
+                  .temperature = 1.0};
+  refuse([&] {
+    session.add(none);
+    session.remember({.acts = {{.puff = none}}});
+  });
+  Scene full = parse_scene(SessionDriver::kScene, "gas");
+  State<2> overlapping;
+  overlapping.positions = {Vec2(5.0, 5.0), Vec2(5.5, 5.0)};
+  overlapping.velocities.assign(2, Vec2(0.0, 0.0));
+  full.particles.count = 2;
+  full.particles.start.layout = Layout::File;
+  full.particles.start.state = overlapping;
+  refuse([&] { session.open(full, 7, false); });
+  // Undo then reaches the last change that was made.
+  session.undo();
+  driver.answer();
+  CHECK(session.frame().run == 1);
+  CHECK(session.frame().scene->changes.empty());
+}
+
+TEST_CASE("Session: a stroke of a wall changes at any phase, also with grains at the wall") {
+  SessionDriver driver;
+  Session& session = driver.session;
+  for (int eighth = 0; eighth < 8; ++eighth) {
+    CAPTURE(eighth);
+    session.open(load_scene("shaker"), 1, false);
+    session.set_speed(1e4);
+    driver.answer();
+    driver.go_to(30.0 + eighth / 8.0);
+    session.set_speed(2.0);
+    const std::uint64_t messages = session.messages();
+    session.set({{"walls.bottom.stroke", "1.0"}});
+    driver.answer();
+    CHECK(session.messages() == messages);
+    CHECK(session.frame().scene->walls[2]->stroke == 1.0);
+    CHECK(session.frame().snapshot.time < 31.0 + eighth / 8.0);
+  }
+}
+
+TEST_CASE("Session: experiments with a scene of the gallery need no saving") {
+  SessionDriver driver;
+  Session& session = driver.session;
+  CHECK_FALSE(session.unsaved());
+  session.set({{"particles.restitution", "0.8"}});
+  CHECK(session.unsaved());  // of a scene that is not in the gallery
+  session.open(load_scene("vibrated"), 1, false);
+  driver.answer();
+  session.set({{"particles.restitution", "0.8"}});
+  session.nudge(Nudge{.centre = VecX(Vec2(8.0, 6.0)), .radius = 5.0, .scale = 1.1});
+  CHECK_FALSE(session.unsaved());
+  session.set({{"box.size", "[30.0, 25.0]"}});
+  CHECK(session.unsaved());
+  driver.answer();
+}
+
+TEST_CASE("Session: a saved scene opens at the time of its picture, with its changes") {
+  SessionDriver driver;
+  Session& session = driver.session;
+  driver.go_to(2.0);
+  session.set({{"particles.restitution", "0.7"}});
+  driver.answer();
+  driver.go_to(3.0);
+  const Scene saved = parse_scene(scene_to_toml(session.recorded(session.frame())), "saved");
+  const auto hash = session.frame().state_hash;
+  session.open(saved, 7, false);
+  driver.answer();
+  driver.wait_for([&] { return session.frame().snapshot.time == 3.0; });
+  driver.answer();
+  CHECK(session.frame().state_hash == hash);
+  CHECK(session.frame().scene->particles.restitution == 0.7);
+  session.restart();
+  driver.answer();
+  CHECK(session.frame().snapshot.time == 0.0);
+  CHECK(session.frame().scene->particles.restitution == 0.95);
+}
+
+TEST_CASE("Session: the way to the time of a saved scene ends by a cancel, where it is") {
+  SessionDriver driver;
+  Session& session = driver.session;
+  Scene scene = parse_scene(SessionDriver::kScene, "gas");
+  scene.particles.restitution = 1.0;
+  scene.view.open_at = 1e6;
+  session.open(scene, 7, false);
+  driver.wait_for([&] { return session.frame().bound_for == 1e6; });
+  session.cancel_open();
+  driver.wait_for([&] { return !session.frame().bound_for; });
+  driver.answer();
+  CHECK(session.frame().snapshot.time > 0.0);
+  CHECK(session.frame().snapshot.time < 1e6);
+}
+
+TEST_CASE("Session: a gas that heats without bound has a message before its speeds diverge") {
+  SessionDriver driver;
+  Session& session = driver.session;
+  session.open(load_scene("heating_walls"), 1, false);
+  session.set_speed(1e4);
+  driver.answer();
+  const std::uint64_t messages = session.messages();
+  session.play(true);
+  driver.wait_for([&] { return session.messages() > messages; });
+  CHECK(session.message().find("100 times") != std::string::npos);
+  CHECK(session.frame().snapshot.temperature >= 100.0);
+  session.play(false);
+  driver.answer();
+}
+
 TEST_CASE("Session: undo finds an act before later changes of laws") {
   SessionDriver driver;
   Session& session = driver.session;

@@ -12,6 +12,9 @@ TEST_SUITE_BEGIN("display");
 
 namespace {
 
+// A scene that is not of the gallery.
+constexpr const char* kOwn = "vibrated --set particles.restitution=0.85";
+
 bool answered(const GuiDriver& driver, std::size_t told) {
   return driver.wait_for("answer", told)["acts"];
 }
@@ -23,8 +26,8 @@ bool has(const GuiDriver& driver, const std::string& event) {
 }  // namespace
 
 TEST_CASE("Window: it asks before it closes with changes, and Cancel keeps it open") {
-  const GuiDriver driver("");
-  driver.drag("particles.restitution", 0.88, 0.5);
+  const GuiDriver driver(kOwn);
+  driver.drag("particles.restitution", 0.83, 0.5);
   std::size_t told = driver.told();
   driver.key("ctrl+q");
   driver.click("unsaved.cancel");
@@ -47,18 +50,18 @@ TEST_CASE("Window: it asks before it closes with changes, and Cancel keeps it op
 }
 
 TEST_CASE("Window: Save writes the changes before it closes") {
-  const GuiDriver driver("");
-  driver.drag("particles.restitution", 0.88, 0.5);
+  const GuiDriver driver(kOwn);
+  driver.drag("particles.restitution", 0.83, 0.5);
   driver.key("ctrl+q");
-  driver.key("Return");
+  driver.key("s");
   driver.wait_for("quit");
   CHECK(driver.exit_code() == 0);
   CHECK(says(driver.shell().read(driver.wait_for("saved")["file"]), "[[change]]"));
 }
 
 TEST_CASE("Window: with saved changes, and another picture, it closes at once") {
-  const GuiDriver driver("");
-  driver.drag("particles.restitution", 0.88, 0.5);
+  const GuiDriver driver(kOwn);
+  driver.drag("particles.restitution", 0.83, 0.5);
   const std::size_t told = driver.told();
   driver.key("ctrl+s");
   driver.wait_for("saved", told);
@@ -69,8 +72,8 @@ TEST_CASE("Window: with saved changes, and another picture, it closes at once") 
 }
 
 TEST_CASE("Window: it asks before another scene takes the place of a changed one") {
-  const GuiDriver driver("");
-  driver.drag("particles.restitution", 0.88, 0.5);
+  const GuiDriver driver(kOwn);
+  driver.drag("particles.restitution", 0.83, 0.5);
   std::size_t told = driver.told();
   driver.key("bracketright");
   driver.click("unsaved.cancel");
@@ -80,12 +83,13 @@ TEST_CASE("Window: it asks before another scene takes the place of a changed one
   driver.click("unsaved.save");
   driver.wait_for("open", told);
   CHECK(has(driver, "saved"));
-  // The new scene is unchanged.
+  // Live changes of a gallery scene are an experiment.
+  driver.drag("particles.restitution", 0.88, 0.5);
   told = driver.told();
   driver.key("bracketleft");
   driver.wait_for("open", told);
   // Changes that are given up come back with undo.
-  driver.drag("particles.restitution", 0.88, 0.5);
+  driver.drag("particles.count", 0.6, 0.5);
   told = driver.told();
   driver.key("bracketright");
   driver.click("unsaved.discard");

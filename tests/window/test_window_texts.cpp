@@ -88,6 +88,34 @@ TEST_CASE("Window texts: a card of the gallery has title, name, caption, goal an
   window.check_explained({"gallery.close"});
 }
 
+TEST_CASE("Gallery: letters search it, also those of the picture in which it opens") {
+  OffscreenWindow window(
+      parse_scene("box.size = [16.0, 12.0]\nparticles = { count = 5 }\n", "gas"));
+  window.type_all("gdense");
+  CHECK(window.comes_to_say("Gallery/scenes", "dense"));
+  // The scene of this name comes before those whose texts have the word.
+  window.press_key(GLFW_KEY_ENTER);
+  CHECK(window.logged("open")["title"] == load_scene("dense").title);
+  window.press('g');
+  window.type_all("zzz");
+  CHECK(window.comes_to_say("Gallery/scenes", "No scene matches \"zzz\""));
+  for (int letter = 0; letter < 3; ++letter) window.press_key(GLFW_KEY_BACKSPACE);
+  window.type_all("/cradle");
+  window.press_key(GLFW_KEY_ENTER);
+  CHECK(window.logged("open")["title"] == "Newton's cradle");
+}
+
+TEST_CASE("Film dialog: Esc closes an open list, then the dialog") {
+  OffscreenWindow window(parse_scene("box.size = [16.0, 12.0]\nparticles = { count = 5 }\n", "gas"),
+                         1500.0f, 1900.0f);
+  window.click("film");
+  window.click("film.format");
+  window.press_key(GLFW_KEY_ESCAPE);
+  CHECK(window.text("film dialog") != "");
+  window.press_key(GLFW_KEY_ESCAPE);
+  CHECK(window.text("film dialog") == "");
+}
+
 TEST_CASE("Window texts: the plots and their choices") {
   OffscreenWindow window(load_scene("conduction"));
   if (window.text("plots").empty()) window.press('p');
