@@ -246,13 +246,9 @@ float LectureMode::bar() {
       toggle_tool(tool.tool);
     }
   }
-  if (button("lecture.pen", "Pen", "The mouse draws lines; with Shift on the plot, a slope (D)",
-             pen_)) {
+  if (button("lecture.pen", "Pen",
+             "The mouse draws lines; with Shift on the plot, a slope (D). E wipes them", pen_)) {
     toggle_pen();
-  }
-  if ((lines_.visible() || slope_) &&
-      button("lecture.wipe", "Wipe", "Removes the lines of the pen (E)", false)) {
-    wipe();
   }
   if (button("lecture.pointer", "Pointer", "Ring and trail of the pointer (K)", pointer_)) {
     pointer_ = !pointer_;
@@ -349,6 +345,10 @@ void LectureMode::draw_settings() {
     mouse_tools_.sliders(session_.scene(), controls_);
   } else if (mouse_tools_.panel(session_.scene(), controls_)) {
     lift_pen();
+  }
+  if (controls_.button("lecture.wipe", "Wipe", "Removes the lines of the pen (E)",
+                       ImGui::GetContentRegionAvail().x)) {
+    wipe();
   }
   controls_.toggle("lecture.captions", "Caption", "The caption of the scene", captions_);
   if (choose(controls_, "lecture.theme", "Theme", "Colours in lecture mode", kThemes, theme_,
