@@ -92,7 +92,8 @@ std::vector<const Gallery::Entry*> Gallery::matches() const {
     const auto at = wanted.empty() ? 0 : rank(entry, wanted);
     if (at) found.emplace_back(*at, &entry);
   }
-  std::ranges::stable_sort(found, {}, &std::pair<int, const Entry*>::first);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<const Entry*> entries;
   for (const auto& [at, entry] : found) entries.push_back(entry);
   return entries;

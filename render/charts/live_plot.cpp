@@ -180,7 +180,9 @@ std::string readout(const LivePlot& plot, const PlotFrame& frame, ImVec2 place) 
     const auto distance = [&](const Vec2& point) {
       return std::fabs(frame.x.place(point.x()) - frame.x.place(x));
     };
-    const auto near = std::ranges::min_element(curve.points, {}, distance);
+    const auto near =
+        std::min_element(curve.points.begin(), curve.points.end(),
+                         [&](const Vec2& a, const Vec2& b) { return distance(a) < distance(b); });
     if (near == curve.points.end() || !std::isfinite(near->y())) continue;
     text += fmt::format("\n{} = {:.4g}", curve.name.empty() ? plot.title : curve.name, near->y());
   }
