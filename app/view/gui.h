@@ -34,7 +34,8 @@ class Gui {
  public:
   Gui(Host& host, const Gl& gl, WindowInput& input, EngineLink& engine, ScriptLog& log);
 
-  /// Starts a scene, and those `beside` it in step. With `until` they stop at that simulation time.
+  /// Starts a scene, and those `beside` it in step. With `until` they play from time 0 to that
+  /// simulation time.
   void open(const Scene& scene, std::uint64_t seed, std::optional<double> until = {},
             const std::vector<Scene>& others = {}) {
     opener_.open(scene, seed, until, others);

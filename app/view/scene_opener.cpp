@@ -65,8 +65,9 @@ SceneOpener::SceneOpener(const WindowParts& parts, const Gallery& gallery, Plots
       plots_(plots),
       recorder_(recorder) {}
 
-void SceneOpener::open(const Scene& scene, std::uint64_t seed, std::optional<double> until,
+void SceneOpener::open(Scene scene, std::uint64_t seed, std::optional<double> until,
                        const std::vector<Scene>& others) {
+  if (until) scene.view.open_at.reset();
   plots_.measure_along(scene.measure.profile_axis);
   session_.open(scene, seed, !until, others);
   if (until) session_.play_until(*until);

@@ -36,9 +36,9 @@ class SceneOpener {
   SceneOpener(const SceneOpener&) = delete;
   SceneOpener& operator=(const SceneOpener&) = delete;
 
-  /// Starts a scene without a question, and `others` beside it in step. With `until` they stop at
-  /// that simulation time.
-  void open(const Scene& scene, std::uint64_t seed, std::optional<double> until = {},
+  /// Starts a scene without a question, and `others` beside it in step. With `until` they play from
+  /// time 0 to that simulation time.
+  void open(Scene scene, std::uint64_t seed, std::optional<double> until = {},
             const std::vector<Scene>& others = {});
   /// Opens a scene of the gallery, and closes the gallery.
   void open(const EmbeddedFile& scene);

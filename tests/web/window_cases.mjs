@@ -234,7 +234,7 @@ test('a page with unsaved changes asks before it is left, and an unchanged one d
   await browser.click('viewport');  // browsers ask only after a click or a key
   assert.deepEqual(await leave(), []);
   await open('vibrated');
-  await drag('particles.restitution', 0.3);
+  await drag('particles.count', 0.3);
   await browser.until('Module._clatter_unsaved()');
   assert.deepEqual(await leave(), ['beforeunload']);
 });
