@@ -176,6 +176,21 @@ void require_few_windows(const View& view, double last) {
 
 }  // namespace
 
+void remove_plots(const RenderOptions& options, Scene& scene, std::optional<Resumed>& resumed) {
+  if (options.common.sets("view.plots")) return;
+  const std::optional<FilmState> film = resumed ? film_of(*resumed) : std::nullopt;
+  if (!film || options.from || options.one_picture()) {
+    if (options.no_overlay) scene.view.plots.clear();
+    return;
+  }
+  const auto without_plots = [](const KeyDifference& key) {
+    return key.key == "view.plots" && (key.before.empty() || key.before == "[]");
+  };
+  if (!film->overlay && std::erase_if(resumed->differences, without_plots) > 0) {
+    scene.view.plots.clear();
+  }
+}
+
 FilmState film_asked_for(const RenderOptions& options, const View& view,
                          const std::optional<Resumed>& resumed) {
   if (!resumed) return new_film(options, view, 0.0);

@@ -54,6 +54,10 @@ struct RenderOptions {
   bool gif() const { return extension() == ".gif"; }
 };
 
+/// Removes the plots of the scene for a film of the gas alone, by --no-overlay of this command or
+/// of the one that began the resumed film. Plots of --set remain.
+void remove_plots(const RenderOptions& options, Scene& scene, std::optional<Resumed>& resumed);
+
 /// The film to draw: from the checkpoint, unless the flags give another beginning. Throws UserError
 /// if the flags contradict each other or the checkpoint.
 FilmState film_asked_for(const RenderOptions& options, const View& view,

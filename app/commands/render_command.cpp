@@ -176,8 +176,8 @@ int submit(const RenderOptions& options, const Scene& scene, const FilmState& fi
 int render(const RenderOptions& options) {
   require_comparable(options);
   Scene scene = load(options.common, options.checkpoints.start_file());
-  if (options.no_overlay && !options.common.sets("view.plots")) scene.view.plots.clear();
   std::optional<Resumed> resumed = resume(options.common, options.checkpoints, scene);
+  remove_plots(options, scene, resumed);
   const FilmState film = film_asked_for(options, scene.view, resumed);
   const FrameRange frames = frames_asked_for(options, film);
   View view = scene.view;

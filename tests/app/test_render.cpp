@@ -140,6 +140,27 @@ TEST_CASE("Render: shutter, trails and camera change pictures, but not the run")
   CHECK(shell.run(kRender + "--shutter 1.5 --out b.png").code == 2);
 }
 
+TEST_CASE("Render: without an overlay the gas is alone, unless --set gives plots") {
+  const Shell shell;
+  const auto drawn = [&](const std::string& flags) {
+    const Outcome outcome = shell.run(kRender + "--to 1 --out a.png " + flags);
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 0);
+    return pixels_of(shell, "a.png");
+  };
+  const std::string plots = " --set 'view.plots=[\"temperature\"]'";
+  const std::string alone = drawn("--no-overlay");
+  CHECK(drawn("--no-overlay" + plots) != alone);
+  // Plots of the scene itself.
+  CHECK(shell
+            .run("clatter render rough_cooling --size 160x120 --quiet --to 1 --no-overlay --out "
+                 "b.png && "
+                 "clatter render rough_cooling --size 160x120 --quiet --to 1 --no-overlay --set "
+                 "view.plots=[] --out c.png")
+            .code == 0);
+  CHECK((pixels_of(shell, "b.png") == pixels_of(shell, "c.png")));
+}
+
 TEST_CASE("Render: a film begins with its title where a card is asked for") {
   const Shell shell;
   CHECK(shell.run(kRender + "--to 1 --speed 1 --fps 4 --set view.card=0.5 --out card").code == 0);

@@ -29,10 +29,10 @@ TEST_CASE("Window texts: the tools and the settings of lecture mode are explaine
   window.click("lecture.settings");
   const std::string text = window.text("lecture_settings");
   CAPTURE(text);
-  CHECK(says(text, "Slider 1 walls.left.temperature Slider 2 walls.right.temperature Slider 3"));
-  CHECK(says(text, " Plot temperature Caption Theme projector"));
-  window.check_explained(
-      {"window.scale", "lecture.slider.1", "lecture.plot_of", "lecture.captions", "lecture.theme"});
+  CHECK(says(text, "Slider 1 walls.right.temperature Slider 2 walls.left.temperature Slider 3"));
+  CHECK(says(text, " Plot temperature Wipe Caption Theme projector"));
+  window.check_explained({"window.scale", "lecture.slider.1", "lecture.plot_of", "lecture.wipe",
+                          "lecture.captions", "lecture.theme"});
 }
 
 // Running, the stopwatch has other texts. Its seconds pass, but not the time of the halted gas.

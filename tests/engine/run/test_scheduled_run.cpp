@@ -324,21 +324,30 @@ TEST_CASE(
 
 TEST_CASE(
     "ScheduledRun: a change that moves a wall into a particle names the wall, and a time for it") {
-  ScheduledRun<2> run(shaken(), 1);
-  run.run_until(10.75);
-  const auto refusal_of_stroke = [&] {
+  const auto refusal_at = [](double time) {
+    Scene scene = shaken();
+    scene.changes = {{.time = time, .set = {{"walls.left.stroke", "4"}}}};
+    ScheduledRun<2> run(scene, 1);
     try {
-      run.change({{"walls.left.stroke", "4"}});
+      run.run_until(12.0);
     } catch (const PhysicalStop& stop) {
       return std::string(stop.what());
     }
     return std::string();
   };
-  CHECK(says(refusal_of_stroke(), "the change of walls.left at t = 10.75 moves a wall into a"));
-  CHECK(says(refusal_of_stroke(),
+  CHECK(says(refusal_at(10.75), "the change of walls.left at t = 10.75 moves a wall into a"));
+  CHECK(says(refusal_at(10.75),
              "change walls.left without a ramp at its rest position, as at t = 11.0001"));
-  run.run_until(11.0001);
-  CHECK(refusal_of_stroke() == "");
+  CHECK(refusal_at(11.0001) == "");
+}
+
+TEST_CASE("ScheduledRun: a live change of a stroke waits until no particle is in its way") {
+  ScheduledRun<2> run(shaken(), 1);
+  run.run_until(10.75);
+  run.change({{"walls.left.stroke", "4"}});
+  CHECK(run.laws().walls[0]->stroke == 4.0);
+  CHECK(run.simulation().time() > 10.75);
+  CHECK(run.simulation().time() <= 11.8);
 }
 
 // Disks of a lattice touch the wall at time 0. Their collisions come before the change.
