@@ -72,31 +72,26 @@ bool Gallery::draw_card(const Entry& entry, bool selected, Controls& controls) {
   return clicked;
 }
 
-// The place of a scene among the matches of a searched text: 0 is the best. Absent: no match.
-std::optional<int> Gallery::rank(const Entry& entry, const std::string& wanted) {
+// How well a scene matches a searched text: 0 is the best, kRanks no match.
+int Gallery::rank(const Entry& entry, const std::string& wanted) {
   const std::string name = lower(entry.name), title = lower(entry.title);
   if (name.starts_with(wanted)) return 0;
   if (title.starts_with(wanted)) return 1;
-  for (const std::string& text : {name, title}) {
-    if (text.find(wanted) != std::string::npos) return 2;
-  }
   const std::string texts = lower(entry.caption + ' ' + entry.goal + ' ' + entry.try_this);
-  return texts.find(wanted) != std::string::npos ? std::optional(3) : std::nullopt;
+  const auto has = [&](const std::string& text) { return text.find(wanted) != std::string::npos; };
+  return has(name) || has(title) ? 2 : has(texts) ? 3 : kRanks;
 }
 
 // The scenes with the searched text, the best match first.
 std::vector<const Gallery::Entry*> Gallery::matches() const {
   const std::string wanted = lower(search_.data());
-  std::vector<std::pair<int, const Entry*>> found;
-  for (const Entry& entry : entries_) {
-    const auto at = wanted.empty() ? 0 : rank(entry, wanted);
-    if (at) found.emplace_back(*at, &entry);
+  std::vector<const Entry*> found;
+  for (int rank = 0; rank < kRanks; ++rank) {
+    for (const Entry& entry : entries_) {
+      if (Gallery::rank(entry, wanted) == rank) found.push_back(&entry);
+    }
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<const Entry*> entries;
-  for (const auto& [at, entry] : found) entries.push_back(entry);
-  return entries;
+  return found;
 }
 
 void Gallery::search(const std::string& text) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,7 +38,8 @@ class Gallery {
     std::string name, title, caption, goal, try_this;
   };
 
-  static std::optional<int> rank(const Entry& entry, const std::string& wanted);
+  static constexpr int kRanks = 4;
+  static int rank(const Entry& entry, const std::string& wanted);
   void search(const std::string& text);
   std::vector<const Entry*> matches() const;
   bool select(int matches);
