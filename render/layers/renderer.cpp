@@ -56,9 +56,9 @@ bool is_sum(const Snapshot& snapshot, const View& view) {
 }  // namespace
 
 // The duration of trails. Those of very fast particles would fill the picture, so a particle of the
-// mean square speed has a trail of at most half of the narrowest side.
+// mean square speed has a trail of at most a quarter of the narrowest side.
 static double trail_time(const Snapshot& gas, double asked) {
-  constexpr double kLongest = 0.5;  // of the side
+  constexpr double kLongest = 0.25;  // of the side
   const double speed = std::sqrt(static_cast<double>(gas.box.size()) * gas.temperature);
   return std::min(asked, kLongest * gas.box.minCoeff() / std::max(speed, 1e-300));
 }
