@@ -174,7 +174,10 @@ inline constexpr auto kViewKeys = key_table(
      {"plots", "",
       "Plots beside the gas in films and pictures, at most 4. Profiles are along "
       "`measure.profile_axis`. The window opens its own plots with such a scene."},
-     {"trails", "t", "Duration of the particles' trails. Without a value: none."},
+     {"trails", "t",
+      "Duration of the particles' trails, at the mean speed at most a quarter of the narrowest "
+      "side "
+      "long. Without a value: none."},
      {"card", "s",
       "Time of title and caption at the start of a film, while the gas moves. They fade out in the "
       "last half second. Without a value: none.",
