@@ -188,8 +188,7 @@ void Session::start(const OpenedScene& opened, const char* event,
                      {"command", sent_ + 1}});
   send_open(scene(), false, {}, at);
   if (at > 0.0) {
-    report(fmt::format("Opened at t = {}, where it was saved. R starts it from t = 0",
-                       number_text(at)));
+    report(fmt::format("Opened at t = {}; R starts the scene from t = 0", number_text(at)));
   }
 }
 

@@ -119,8 +119,8 @@ static double longest_period(const Scene& scene) {
   return period;
 }
 
-// A moving wall of another stroke is at another place. If a particle is there, the change waits for
-// a moment of the period at which none is.
+// A moving wall with another stroke is at another place, where a particle may be. Then the change
+// is tried again at later moments of the wall's period.
 template <int D>
 void ScheduledRun<D>::change(const std::vector<Override>& laws, double delay) {
   constexpr int kMoments = 16;  // of a period

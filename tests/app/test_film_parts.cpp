@@ -125,7 +125,7 @@ TEST_CASE("Film parts: a resumed film keeps the flags it began with, and refuses
   check_refused(shell, on + "--out other.mp4", {"other.mp4", "000000.mp4", "--frames 60:"});
   CHECK(shell.run(on + "--out film").code == 0);
   CHECK(shell.run("ls film | wc -l").out == "150\n");
-  // A film of the gas alone goes on without the plots of its scene.
+  // A film that began with --no-overlay continues, although its scene has plots.
   REQUIRE(shell.run(kFilm + "--frames 0:60 --no-overlay --out alone --checkpoint d").code == 0);
   for (const std::string flag : {"", " --no-overlay --overwrite"}) {
     CHECK(

@@ -123,34 +123,29 @@ TEST_CASE("Render: a picture of several samples a pixel has the size asked for, 
   CHECK(says(outcome.err, "--supersample"));
 }
 
+// The pixels of a picture at t = 2 without an overlay.
+static std::string drawn(const Shell& shell, const std::string& flags) {
+  const Outcome outcome = shell.run(kRender + "--no-overlay --to 2 --out a.png " + flags);
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 0);
+  return pixels_of(shell, "a.png");
+}
+
 TEST_CASE("Render: shutter, trails and camera change pictures, but not the run") {
   const Shell shell;
-  const auto drawn = [&](const std::string& flags) {
-    const Outcome outcome = shell.run(kRender + "--no-overlay --to 2 --out a.png " + flags);
-    CAPTURE(outcome.err);
-    CHECK(outcome.code == 0);
-    return pixels_of(shell, "a.png");
-  };
-  const std::string plain = drawn("");
-  CHECK(drawn("--shutter 0") == plain);
-  CHECK(drawn("--shutter 1") != plain);
-  CHECK(drawn("--set view.trails=1") != plain);
-  CHECK(drawn("--set view.camera='[{ follow = 3, width = 8 }]'") != plain);
-  CHECK(drawn("--set view.camera='[{ time = 5 }]'") == plain);
+  const std::string plain = drawn(shell, "");
+  CHECK(drawn(shell, "--shutter 0") == plain);
+  CHECK(drawn(shell, "--shutter 1") != plain);
+  CHECK(drawn(shell, "--set view.trails=1") != plain);
+  CHECK(drawn(shell, "--set view.camera='[{ follow = 3, width = 8 }]'") != plain);
+  CHECK(drawn(shell, "--set view.camera='[{ time = 5 }]'") == plain);
   CHECK(shell.run(kRender + "--shutter 1.5 --out b.png").code == 2);
 }
 
 TEST_CASE("Render: without an overlay the gas is alone, unless --set gives plots") {
   const Shell shell;
-  const auto drawn = [&](const std::string& flags) {
-    const Outcome outcome = shell.run(kRender + "--to 1 --out a.png " + flags);
-    CAPTURE(outcome.err);
-    CHECK(outcome.code == 0);
-    return pixels_of(shell, "a.png");
-  };
-  const std::string plots = " --set 'view.plots=[\"temperature\"]'";
-  const std::string alone = drawn("--no-overlay");
-  CHECK(drawn("--no-overlay" + plots) != alone);
+  const std::string plots = "--set 'view.plots=[\"temperature\"]'";
+  CHECK(drawn(shell, plots) != drawn(shell, ""));
   // Plots of the scene itself.
   CHECK(shell
             .run("clatter render rough_cooling --size 160x120 --quiet --to 1 --no-overlay --out "
