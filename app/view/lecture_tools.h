@@ -8,10 +8,12 @@
 
 namespace clatter {
 
-/// Lines over the picture that fade out by themselves: a pen, or the trail of the pointer.
+/// Lines over the picture: those of the pen, which stay, or the trail of the pointer, which fades
+/// out.
 class FadingInk {
  public:
-  /// Each part of a line is visible for `life` seconds, and fades in the last `fade` of them.
+  /// Each part of a line is visible for `life` seconds, infinite: until clear(), and fades in the
+  /// last `fade` of them.
   FadingInk(double life, double fade) : life_(life), fade_(fade) {}
 
   /// Continues the line to a place at a time in seconds, or begins a line after lift().

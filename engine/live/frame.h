@@ -57,8 +57,8 @@ struct Frame {
   /// The last stretches played under Listen, at most kMostStretches, in order.
   std::vector<std::shared_ptr<const PlayedStretch>> played;
   std::optional<double> opening;  ///< completed part of the scene being opened, 0..1; absent: none
-  std::optional<double>
-      bound_for;  ///< time to which the opened gas goes, Open::at; absent: it is there
+  /// Simulation time to which the opened gas goes at once, Open::at; absent: it is there.
+  std::optional<double> bound_for;
   std::uint64_t seed = 1;
   bool plays = false;
   bool backwards = false;          ///< whether it plays backwards

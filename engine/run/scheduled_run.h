@@ -80,7 +80,8 @@ class ScheduledRun {
   /// Settles, then changes laws at the simulation's time and adds the change to the scene's
   /// changes. Throws UserError or PhysicalStop if the change is impossible; the old laws then
   /// remain. First it runs for up to `delay`, to the time with the fewest digits in it, if no
-  /// physical stop prevents it.
+  /// physical stop prevents it. While a moving wall with another stroke would overlap a particle,
+  /// it runs on, for up to about a period of the wall.
   void change(const std::vector<Override>& laws, double delay = 0.0);
   /// The same where the run is, as by a [[change]] of the scene. To be called after run_until() has
   /// returned true or after settle().

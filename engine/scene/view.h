@@ -191,8 +191,7 @@ struct View {
   std::optional<double> trails;       ///< duration of the particles' trails, > 0; absent: none
   std::optional<Tracer> tracer = {};  ///< absent: none
   std::optional<double> card;  ///< seconds of the title card at a film's start, > 0; absent: none
-  /// Simulation time > 0 at which the window opens the scene, where it was saved; absent: its
-  /// start.
+  /// Simulation time > 0 at which the window opens the scene; absent: its start.
   std::optional<double> open_at = {};
   /// Direction to the viewer of spheres, in degrees: 0, 0 is along z, from the front; azimuth turns
   /// about the y axis towards x, elevation raises the viewer towards y.

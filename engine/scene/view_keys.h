@@ -175,9 +175,8 @@ inline constexpr auto kViewKeys = key_table(
       "Plots beside the gas in films and pictures, at most 4. Profiles are along "
       "`measure.profile_axis`. The window opens its own plots with such a scene."},
      {"trails", "t",
-      "Duration of the particles' trails, at the mean speed at most a quarter of the narrowest "
-      "side "
-      "long. Without a value: none."},
+      "Duration of the particles' trails. At the mean speed they are at most a quarter of the "
+      "narrowest side long. Without a value: none."},
      {"card", "s",
       "Time of title and caption at the start of a film, while the gas moves. They fade out in the "
       "last half second. Without a value: none.",
